@@ -1,0 +1,39 @@
+#pragma once
+/// Stage header: engine. A Scene and Settings go in, an image and its statistics come out. The
+/// command line is a thin layer over this, and so would any binding be.
+
+#include <atomic>
+#include <functional>
+#include <memory>
+
+#include "base/diagnostics.h"
+#include "engine/plan.h"
+#include "engine/settings.h"
+#include "engine/statistics.h"
+#include "images/image.h"
+#include "scenes/scene.h"
+
+namespace tessera {
+
+/// How a frame tells how far it is and learns that it should stop. Called from worker threads, one
+/// at a time.
+struct FrameControl {
+  std::function<void(int buckets_done, int buckets_total)> progress;
+  const std::atomic<bool>* cancel = nullptr;  ///< when it turns true no further bucket is started
+};
+
+struct FrameResult {
+  Image image;       ///< every channel asked for, over the crop window
+  Statistics statistics;
+  bool complete = true;  ///< false after a cancellation: missing buckets are black and transparent
+};
+
+/// Renders one frame. The image is the same bit for bit for any thread count and bucket size.
+/// Throws Error when the settings or the scene cannot be rendered.
+FrameResult render_frame(const Scene& scene, const Settings& settings, Diagnostics& diagnostics,
+                         const FrameControl& control = {});
+
+/// The plan alone, without rendering.
+FramePlan plan_frame(const Scene& scene, const Settings& settings, Diagnostics& diagnostics);
+
+}  // namespace tessera

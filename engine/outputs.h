@@ -1,0 +1,27 @@
+#pragma once
+/// Which files a rendered frame becomes.
+
+#include <string>
+#include <vector>
+
+#include "engine/frame.h"
+
+namespace tessera {
+
+/// Writes every channel of the frame to `path` (EXR through a temporary name; other extensions
+/// through the image module). Metadata: scene, frame, options, statistics in brief, version, time.
+void write_frame(const FrameResult& frame, const Scene& scene, const std::string& path);
+
+/// The files that a frame will be written to when no output is named: those of the scene's
+/// Displays (framebuffer displays excepted), or SCENE.exr. Relative to the working directory.
+std::vector<std::string> display_outputs(const Scene& scene);
+
+/// Writes the frame to display_outputs(), each with the channels its Display asks for. Returns
+/// the names written.
+std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene,
+                                        Diagnostics& diagnostics);
+
+/// An 8-bit picture to look at, from the rgb channels (sRGB).
+void write_preview(const FrameResult& frame, const std::string& path);
+
+}  // namespace tessera

@@ -1,0 +1,41 @@
+#pragma once
+/// What a frame needs, and so all that it will pay for: derived once from the scene and the
+/// settings, handed to every stage, printed with --verbose and stored in the statistics.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cameras/camera_settings.h"
+#include "engine/settings.h"
+#include "scenes/scene.h"
+
+namespace tessera {
+
+class ShaderBindings;
+
+struct FramePlan {
+  bool motion = false;         ///< camera or some surface moves while the shutter is open
+  bool lens = false;           ///< the lens is open
+  bool transparency = false;   ///< some surface may let others show through
+  bool displacement = false;   ///< some surface has a displacement shader
+  bool textures = false;       ///< some shader names a texture: the image library is loaded
+  bool area_lights = false;    ///< some light has extent (kept, not yet used)
+  bool ray_tracing = false;    ///< some shader traces rays (none does yet)
+
+  int samples_per_pixel = 16;
+  int bucket_size = 32;
+  int grid_size = 32;
+  std::string hider = "dual", shading = "reyes";
+  std::string filter = "gaussian";
+  float filter_x_width = 2, filter_y_width = 2;
+  std::vector<std::string> channel_groups;  ///< AOVs to compute
+
+  /// (name, value) of every entry, for printing and for the statistics.
+  std::vector<std::pair<std::string, std::string>> entries() const;
+};
+
+FramePlan make_plan(const Scene& scene, const CameraSettings& camera, const Settings& settings,
+                    const ShaderBindings& bindings);
+
+}  // namespace tessera

@@ -1,0 +1,18 @@
+#pragma once
+/// Where a scene reader delivers its frames, one at a time, so that a file of a thousand frames
+/// never holds more than one.
+
+#include <memory>
+
+#include "scenes/scene.h"
+
+namespace tessera {
+
+class SceneSink {
+ public:
+  virtual ~SceneSink() = default;
+  /// Called at the end of each world. Returns false to stop reading.
+  virtual bool frame(std::unique_ptr<const Scene> scene) = 0;
+};
+
+}  // namespace tessera

@@ -1,0 +1,114 @@
+#pragma once
+/// Stage header: shade. Visible fragments and their grids go in; colour, opacity and auxiliary
+/// values (AOVs) come out. Shaders run over batches of points, never one at a time.
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/counters.h"
+#include "base/diagnostics.h"
+#include "cameras/camera.h"
+#include "dice/dice.h"
+#include "hide/hide.h"
+#include "images/texture_sampler.h"
+#include "scenes/scene.h"
+
+namespace tessera {
+
+/// What shading is set up from; everything outlives the shading.
+struct ShadeSetup {
+  const Scene* scene = nullptr;
+  const Camera* camera = nullptr;
+  Diagnostics* diagnostics = nullptr;
+  /// Called at the first texture lookup of a frame, so that a scene without textures never loads
+  /// an image library. May throw Error.
+  std::function<std::shared_ptr<TextureSampler>()> texture_sampler;
+};
+
+/// One bucket's work.
+struct ShadeInput {
+  const FragmentList* fragments = nullptr;
+  std::span<const std::shared_ptr<const Grid>> grids;  ///< as FragmentList::grid counts them
+  const SampleBlock* samples = nullptr;
+};
+
+/// Per fragment, linear: colour Ci already multiplied by opacity, opacity Oi.
+struct ShadedFragments {
+  std::array<std::vector<float>, 3> Ci, Oi;
+};
+
+struct ShadeCounters {
+  uint64_t grids_shaded = 0, points_shaded = 0, light_evaluations = 0, texture_lookups = 0;
+  uint64_t nonfinite_dropped = 0;
+  static constexpr auto fields() {
+    using C = ShadeCounters;
+    return std::array{CounterField<C>{"grids_shaded", &C::grids_shaded},
+                      CounterField<C>{"points_shaded", &C::points_shaded},
+                      CounterField<C>{"light_evaluations", &C::light_evaluations},
+                      CounterField<C>{"texture_lookups", &C::texture_lookups},
+                      CounterField<C>{"nonfinite_dropped", &C::nonfinite_dropped}};
+  }
+};
+
+/// Turns hits into radiance: hit -> cell -> shaded once -> radiance. Which cells there are is the
+/// shading mode's choice. Thread safe; the result never depends on which bucket asked first.
+class Shading {
+ public:
+  virtual ~Shading() = default;
+  virtual void shade(const ShadeInput& input, ShadedFragments& out, ShadeCounters& counters) = 0;
+};
+
+/// The shaders, lights and textures of a scene, bound once per frame.
+class ShaderBindings;
+
+/// A shading mode, one file of shade/modes/ each. `--shading name:arguments` picks and tunes it.
+struct ShadingModeDefinition {
+  const char* name;
+  const char* help;
+  std::unique_ptr<Shading> (*make)(std::string_view arguments,
+                                   std::shared_ptr<const ShaderBindings> bindings);
+};
+std::span<const ShadingModeDefinition> shading_mode_registry();
+std::unique_ptr<Shading> make_shading(std::string_view spec,
+                                      std::shared_ptr<const ShaderBindings> bindings);
+
+/// Looks up every shader and light of the scene; unknown ones warn once and use the defaults.
+std::shared_ptr<const ShaderBindings> bind_shaders(const ShadeSetup& setup);
+/// The displacement shaders of the scene, for dice/; null when no surface has one.
+std::unique_ptr<Displacer> make_displacer(std::shared_ptr<const ShaderBindings> bindings);
+/// Whether anything seen through such a surface could show: opacity below 1, or a shader or
+/// primitive variable that may set it.
+bool may_be_transparent(const ShaderBindings& bindings, const Surface& surface);
+/// Whether a surface's shaders read the primitive variable `name`.
+bool wants_primvar(const ShaderBindings& bindings, const Attributes& attributes,
+                   std::string_view name);
+
+/// How a channel's samples become a pixel.
+enum class ChannelFilter { filtered, closest };  ///< closest: the value of the nearest surface seen
+
+/// A channel group that a Display or --aov can ask for (table in shade/aov.cpp): "rgb", "a", "z",
+/// "Ci", "Oi", "P", "N", "st", "motion", "id".
+struct AovDefinition {
+  const char* name;
+  const char* help;
+  std::vector<std::string> channels;  ///< EXR channel names: R G B; A; Z; P.x P.y P.z; ...
+  ChannelFilter filter;
+  float background;  ///< where nothing is seen
+};
+std::span<const AovDefinition> aov_registry();
+/// Throws Error that lists the choices when unknown.
+const AovDefinition& find_aov(std::string_view name);
+
+/// Composites every sample front to back and evaluates the requested groups. `out[i]` receives the
+/// channels of groups[i] one after another: out[i][channel * samples + sample]. Matte surfaces hold
+/// out what is behind them and add nothing.
+void composite(const ShadeInput& input, const ShadedFragments& shaded, const Camera& camera,
+               std::span<const AovDefinition* const> groups,
+               std::vector<std::vector<float>>& out);
+
+}  // namespace tessera
