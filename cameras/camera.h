@@ -26,10 +26,12 @@ struct AffineInZ {
 
 /// The affine map from camera space to raster clip space. Exact in float for every vertex, so that
 /// two grids that share a camera-space vertex share its raster clip position bit for bit:
-///   X = x_scale * x + x_from_w * W,  Y = y_scale * y + y_from_w * W,  W = w_from_z * z + w_constant.
+///   X = x_scale * x + x_from_w * W,  Y = y_scale * y + y_from_w * W,  W = w_from_z * z +
+///   w_constant.
 struct RasterClipMap {
-  float x_scale = 1, y_scale = 1;    ///< pixels per camera unit at W = 1; y_scale is negative (y down)
-  float x_from_w = 0, y_from_w = 0;  ///< raster position of the optical axis, pixels
+  float x_scale = 1,
+        y_scale = 1;  ///< pixels per camera unit at W = 1; y_scale is negative (y down)
+  float x_from_w = 0, y_from_w = 0;    ///< raster position of the optical axis, pixels
   float w_from_z = 1, w_constant = 0;  ///< (1, 0) perspective, (0, 1) orthographic
   AffineInZ coc_x, coc_y;  ///< raster clip shift per unit lens coordinate; zero for a pinhole
 };
@@ -53,13 +55,16 @@ class Camera {
   glm::vec2 coc_raster(float z) const;
 
   /// Camera-space ray through raster position `pixel` and lens coordinates `lens`: the points
-  /// origin + s * direction with s = camera z for a perspective camera. For oracles and ray tracers.
+  /// origin + s * direction with s = camera z for a perspective camera. For oracles and ray
+  /// tracers.
   struct Ray {
     glm::dvec3 origin, direction;
   };
   Ray ray_camera(glm::dvec2 pixel, glm::dvec2 lens) const;
 
-  PixelRect frame() const { return {0, 0, settings_.x_resolution, settings_.y_resolution}; }
+  /// Pixels of the whole picture: the format, or the part of it (from its top left) that a picture
+  /// of another FrameAspectRatio takes up.
+  PixelRect frame() const { return frame_; }
   /// Pixels to render: frame cut by the crop window, rounded as the RenderMan interface prescribes.
   PixelRect crop() const { return crop_; }
   float near_clip() const { return near_; }
@@ -69,9 +74,13 @@ class Camera {
   const ShutterProfile& shutter_profile() const { return *shutter_profile_; }
 
  private:
+  void set_lens(const CameraSettings::ThinLens& lens);
+
   CameraSettings settings_;
   RasterClipMap map_;
-  PixelRect crop_;
+  glm::dvec2 raster_scale_{1.0};   ///< pixels per camera unit at W = 1, before rounding to float
+  glm::dvec2 raster_centre_{0.0};  ///< raster position of the optical axis, before rounding
+  PixelRect frame_, crop_;
   float near_ = 0, far_ = 0;
   bool lens_open_ = false;
   double lens_radius_ = 0;

@@ -3,12 +3,16 @@ find_package(PkgConfig REQUIRED)
 find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(TBB REQUIRED)
-find_package(OpenEXR REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 add_library(hwy ALIAS PkgConfig::HWY)
+
+# Through pkg-config: the CMake package of Imath, which OpenEXR's pulls in, warns about a Python
+# binding that Debian packages apart.
+pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
+add_library(OpenEXR::OpenEXR ALIAS PkgConfig::OPENEXR)
 
 # OpenImageIO's own CMake target names a missing OpenCV include folder; pkg-config does not.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)

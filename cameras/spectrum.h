@@ -1,0 +1,20 @@
+#pragma once
+/// Where the energy of a spectrum lies: the numerical part of the profiles' band limits.
+
+#include <functional>
+
+namespace tessera {
+
+/// Smallest frequency below which `energy_share` of `total_energy` lies, where `power(f)` is the
+/// energy per unit frequency, already summed over directions (2 |P|^2 in one dimension,
+/// 2 pi f |P|^2 for a radial profile in two). Frequencies in cycles per unit; `power` may not vary
+/// faster than the spectrum of a function of support 2.2, and must hold `total_energy` in all.
+/// Integrates by Simpson's rule upwards from 0. Throws Error unless energy_share is in
+/// (0, 0.9999]: sharp edges spread the last share over frequencies without end.
+double frequency_holding(double energy_share, double total_energy,
+                         const std::function<double(double)>& power);
+
+/// Throws Error unless `energy_share` is in (0, 0.9999].
+void check_energy_share(double energy_share);
+
+}  // namespace tessera
