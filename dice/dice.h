@@ -27,11 +27,12 @@ class Displacer {
 };
 
 struct DiceSettings {
-  int max_grid_size = 32;       ///< micropolygons along u and v
+  int max_grid_size = 32;           ///< micropolygons along u and v
   float shading_rate_scale = 1.0f;  ///< multiplies the surfaces' own ShadingRate
-  PixelRect crop;               ///< surfaces that cannot touch these pixels are never diced
-  int bucket_size = 32;         ///< pixels; bucket (i, j) starts at crop.x0 + i * bucket_size, ...
-  size_t memory_budget_bytes = size_t(2) << 30;  ///< for grids; over it, idle grids are dropped and re-diced
+  PixelRect crop;                   ///< surfaces that cannot touch these pixels are never diced
+  int bucket_size = 32;  ///< pixels; bucket (i, j) starts at crop.x0 + i * bucket_size, ...
+  size_t memory_budget_bytes = size_t(2)
+                               << 30;  ///< for grids; over it, idle grids are dropped and re-diced
   const Displacer* displacer = nullptr;  ///< null: displacement shaders are ignored
   /// Which primitive variables (besides P, N, st) a surface's shaders read; null: all.
   std::function<bool(const Attributes&, std::string_view name)> wants_primvar;
@@ -42,14 +43,15 @@ struct DiceCounters {
   uint64_t grids_diced_again = 0, culled = 0, dropped_nonfinite = 0;
   static constexpr auto fields() {
     using C = DiceCounters;
-    return std::array{
-        CounterField<C>{"surfaces", &C::surfaces}, CounterField<C>{"faces", &C::faces},
-        CounterField<C>{"splits", &C::splits}, CounterField<C>{"grids", &C::grids},
-        CounterField<C>{"micropolygons", &C::micropolygons},
-        CounterField<C>{"vertices", &C::vertices},
-        CounterField<C>{"grids_diced_again", &C::grids_diced_again},
-        CounterField<C>{"culled", &C::culled},
-        CounterField<C>{"dropped_nonfinite", &C::dropped_nonfinite}};
+    return std::array{CounterField<C>{"surfaces", &C::surfaces},
+                      CounterField<C>{"faces", &C::faces},
+                      CounterField<C>{"splits", &C::splits},
+                      CounterField<C>{"grids", &C::grids},
+                      CounterField<C>{"micropolygons", &C::micropolygons},
+                      CounterField<C>{"vertices", &C::vertices},
+                      CounterField<C>{"grids_diced_again", &C::grids_diced_again},
+                      CounterField<C>{"culled", &C::culled},
+                      CounterField<C>{"dropped_nonfinite", &C::dropped_nonfinite}};
   }
 };
 

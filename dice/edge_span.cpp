@@ -1,0 +1,122 @@
+#include "dice/edge_span.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+
+const Patch* PatchCache::get(uint32_t index) {
+  auto [entry, is_new] = cache_.try_emplace(index);
+  if (is_new) entry->second = patches_.patch(index);
+  return entry->second.get();
+}
+
+namespace {
+
+int ceiling(float x) { return int(std::ceil(std::clamp(x, 1.0f, 1e6f))); }
+
+}  // namespace
+
+int RowLength::most_segments(int pieces, float step) const {
+  return ceiling(float(pieces) * longest / step);
+}
+
+int RowLength::segments(int pieces, float step) const {
+  return ceiling(std::min(float(pieces) * longest, 2 * sum) / step);
+}
+
+Location EdgeSpan::location_of(int vertex) const {
+  if (vertex == 0) return first;
+  if (vertex == segments) return last;
+  return {curve, t_of(vertex)};
+}
+
+int EdgeSpan::vertex_at(int i, int count) const {
+  // Rounded: onto as long as count >= touched().
+  const int offset = int((2L * i * touched() + count) / (2L * count));
+  return reversed ? end - offset : begin + offset;
+}
+
+void measure(EdgeSpan& span, PatchCache& cache, const DiceRate& rate) {
+  constexpr int most_pieces = 8;
+  alignas(64) float t[16] = {}, u[16] = {}, v[16] = {}, x[16], y[16], z[16];
+  const Patch* patch = cache.get(span.curve.patch);
+  const int pieces = patch ? std::min(patch->sample_segments(), most_pieces) : 1;
+  const size_t count = size_t(pieces) + 1;
+  for (size_t i = 0; i < count; ++i) {
+    const double at = span.t0 + (span.t1 - span.t0) * double(i) / pieces;
+    const glm::dvec2 uv = span.curve.parameters(at);
+    t[i] = float(at), u[i] = float(uv.x), v[i] = float(uv.y);
+  }
+  const PatchOutput out{{x, y, z}, {}};
+  int segments = 1, most = 1;
+  for (int key = 0; patch && key < rate.key_count; ++key) {
+    if (span.curve.is_side()) {
+      patch->side(key, int(span.curve.line), span.curve.flip, {t, count}, out);
+    } else {
+      patch->points(key, {u, count}, {v, count}, out);
+    }
+    RowLength length;
+    for (size_t i = 0; i + 1 < count; ++i) {
+      length.add(
+          rate.projection->segment_length({x[i], y[i], z[i]}, {x[i + 1], y[i + 1], z[i + 1]}));
+    }
+    segments = std::max(segments, length.segments(pieces, rate.step));
+    most = std::max(most, length.most_segments(pieces, rate.step));
+  }
+  const bool too_narrow = span.t1 - span.t0 <= DiceRate::min_width;
+  span.leaf = !span.forced && (most <= rate.max_grid_size || too_narrow);
+  span.segments = std::min(segments, rate.max_grid_size);
+  span.begin = 0;
+  span.end = span.segments;
+}
+
+EdgeSpan whole_side(uint32_t patch, int side, PatchCache& cache, const DiceRate& rate) {
+  const SharedSide shared = cache.patches().shared_side(patch, side);
+  EdgeSpan span;
+  span.curve = shared.curve;
+  span.t0 = shared.t0;
+  span.t1 = shared.t1;
+  span.reversed = shared.reversed;
+  span.forced = shared.forced_split;
+  const Patch* owner = cache.get(span.curve.patch);
+  if (owner && span.curve.is_side() && owner->side_is_flipped(int(span.curve.line))) {
+    span.curve.flip = true;
+    span.t0 = 1.0 - shared.t1;
+    span.t1 = 1.0 - shared.t0;
+    span.reversed = !span.reversed;
+  }
+  constexpr int corners[4][2] = {{0, 1}, {1, 3}, {2, 3}, {0, 2}};
+  span.first = cache.patches().shared_corner(patch, corners[side][span.reversed ? 1 : 0]);
+  span.last = cache.patches().shared_corner(patch, corners[side][span.reversed ? 0 : 1]);
+  span.own0 = span.reversed ? 1 : 0;
+  span.own1 = span.reversed ? 0 : 1;
+  measure(span, cache, rate);
+  return span;
+}
+
+SplitSpan split(const EdgeSpan& span, PatchCache& cache, const DiceRate& rate) {
+  EdgeSpan a = span, b = span;
+  SplitSpan halves;
+  if (span.leaf) {
+    const int middle = (span.begin + span.end) / 2;
+    a.end = b.begin = middle;
+    halves.middle = span.location_of(middle);
+    halves.own_middle = span.own_of(middle);
+  } else {
+    const double t = 0.5 * (span.t0 + span.t1);
+    halves.middle = {span.curve, t};
+    halves.own_middle = 0.5 * (span.own0 + span.own1);
+    a.forced = b.forced = false;
+    a.t1 = b.t0 = t;
+    a.own1 = b.own0 = halves.own_middle;
+    a.last = b.first = halves.middle;
+    measure(a, cache, rate);
+    measure(b, cache, rate);
+  }
+  halves.low = span.reversed ? b : a;
+  halves.high = span.reversed ? a : b;
+  return halves;
+}
+
+}  // namespace tessera

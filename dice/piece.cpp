@@ -1,0 +1,126 @@
+#include "dice/piece.h"
+
+#include <algorithm>
+
+namespace tessera {
+
+ParameterRect Piece::vertex_rect() const {
+  ParameterRect r = rect;
+  for (const glm::dvec2& c : corners) {
+    r.u0 = std::min(r.u0, c.x), r.u1 = std::max(r.u1, c.x);
+    r.v0 = std::min(r.v0, c.y), r.v1 = std::max(r.v1, c.y);
+  }
+  return r;
+}
+
+void measure(Piece& piece, PatchCache& cache, const DiceRate& rate) {
+  constexpr int most_pieces = 8, stride = 16;
+  alignas(64) float u[stride] = {}, v[stride] = {};
+  alignas(64) float P[3][(most_pieces + 1) * stride];
+  const Patch* patch = cache.get(piece.patch);
+  const int pieces = std::min(patch->sample_segments(), most_pieces);
+  const ParameterRect& r = piece.rect;
+  for (int i = 0; i <= pieces; ++i) {
+    u[i] = float(r.u0 + (r.u1 - r.u0) * i / pieces);
+    v[i] = float(r.v0 + (r.v1 - r.v0) * i / pieces);
+  }
+  const size_t count = size_t(pieces) + 1;
+  const auto at = [&](int i, int j) {
+    const int k = j * stride + i;
+    return glm::vec3(P[0][k], P[1][k], P[2][k]);
+  };
+  piece.u_count = piece.v_count = piece.u_most = piece.v_most = 1;
+  for (int key = 0; key < rate.key_count; ++key) {
+    patch->tensor(key, {u, count}, {v, count}, stride, PatchOutput{{P[0], P[1], P[2]}, {}});
+    for (int row = 0; row <= pieces; ++row) {
+      RowLength along_u, along_v;
+      for (int k = 0; k < pieces; ++k) {
+        along_u.add(rate.projection->segment_length(at(k, row), at(k + 1, row)));
+        along_v.add(rate.projection->segment_length(at(row, k), at(row, k + 1)));
+      }
+      piece.u_count = std::max(piece.u_count, along_u.segments(pieces, rate.step));
+      piece.v_count = std::max(piece.v_count, along_v.segments(pieces, rate.step));
+      piece.u_most = std::max(piece.u_most, along_u.most_segments(pieces, rate.step));
+      piece.v_most = std::max(piece.v_most, along_v.most_segments(pieces, rate.step));
+    }
+  }
+  // Never fewer than the vertices of an edge, or the grid could not touch all of them.
+  for (int side = 0; side < 4; ++side) {
+    int& n = side % 2 ? piece.v_count : piece.u_count;
+    n = std::max(n, piece.edges[size_t(side)].touched());
+  }
+}
+
+std::optional<Piece> whole_patch(uint32_t patch, PatchCache& cache, const DiceRate& rate) {
+  if (!cache.get(patch)) return std::nullopt;
+  Piece piece;
+  piece.patch = patch;
+  for (int side = 0; side < 4; ++side) {
+    piece.edges[size_t(side)] = whole_side(patch, side, cache, rate);
+  }
+  piece.corners = {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1)};
+  measure(piece, cache, rate);
+  return piece;
+}
+
+SplitDecision decide(const Piece& piece, const DiceRate& rate) {
+  const auto wish = [&](int count, int most, const EdgeSpan& a, const EdgeSpan& b, double width) {
+    // A piece must follow its edges; by its own size it stops at the least width.
+    if (!a.leaf || !b.leaf) return std::max(most, rate.max_grid_size + 1);
+    const bool too_big = std::max(count, most) > rate.max_grid_size;
+    return too_big && width > DiceRate::min_width ? most : 0;
+  };
+  const ParameterRect& r = piece.rect;
+  const int u = wish(piece.u_count, piece.u_most, piece.edges[0], piece.edges[2], r.u1 - r.u0);
+  const int v = wish(piece.v_count, piece.v_most, piece.edges[1], piece.edges[3], r.v1 - r.v0);
+  if (u == 0 && v == 0) return SplitDecision::dice;
+  return u >= v ? SplitDecision::split_u : SplitDecision::split_v;
+}
+
+std::array<Piece, 2> split(const Piece& piece, SplitDecision direction, PatchCache& cache,
+                           const DiceRate& rate) {
+  const bool in_u = direction == SplitDecision::split_u;
+  // Sides cut in two: from low to high, the one at the least of the other parameter first.
+  const size_t near = in_u ? 0 : 3, far = in_u ? 2 : 1;
+  const SplitSpan near_halves = split(piece.edges[near], cache, rate);
+  const SplitSpan far_halves = split(piece.edges[far], cache, rate);
+
+  const ParameterRect& r = piece.rect;
+  const double middle = in_u ? 0.5 * (r.u0 + r.u1) : 0.5 * (r.v0 + r.v1);
+  EdgeSpan cut;
+  cut.curve.patch = piece.patch;
+  cut.curve.line = in_u ? Curve::Line::constant_u : Curve::Line::constant_v;
+  cut.curve.constant = float(middle);
+  cut.t0 = cut.own0 = in_u ? r.v0 : r.u0;
+  cut.t1 = cut.own1 = in_u ? r.v1 : r.u1;
+  cut.first = near_halves.middle;
+  cut.last = far_halves.middle;
+  measure(cut, cache, rate);
+
+  const glm::dvec2 near_point =
+      in_u ? glm::dvec2(near_halves.own_middle, r.v0) : glm::dvec2(r.u0, near_halves.own_middle);
+  const glm::dvec2 far_point =
+      in_u ? glm::dvec2(far_halves.own_middle, r.v1) : glm::dvec2(r.u1, far_halves.own_middle);
+  std::array<Piece, 2> halves{piece, piece};
+  Piece &low = halves[0], &high = halves[1];
+  low.path = piece.path << 1;
+  high.path = low.path | 1;
+  low.edges[near] = near_halves.low, low.edges[far] = far_halves.low;
+  high.edges[near] = near_halves.high, high.edges[far] = far_halves.high;
+  if (in_u) {
+    low.rect.u1 = high.rect.u0 = middle;
+    low.edges[1] = high.edges[3] = cut;
+    low.corners[1] = high.corners[0] = near_point;
+    low.corners[3] = high.corners[2] = far_point;
+  } else {
+    low.rect.v1 = high.rect.v0 = middle;
+    low.edges[2] = high.edges[0] = cut;
+    low.corners[2] = high.corners[0] = near_point;
+    low.corners[3] = high.corners[1] = far_point;
+  }
+  measure(low, cache, rate);
+  measure(high, cache, rate);
+  return halves;
+}
+
+}  // namespace tessera

@@ -1,0 +1,109 @@
+#include "dice/projection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+
+RasterProjection::RasterProjection(const Camera& camera, const PixelRect& crop)
+    : map_(camera.raster_clip()),
+      crop_(crop),
+      lens_extent_(camera.lens_open() ? camera.lens_profile().extent() : 0.0f),
+      near_(camera.near_clip()),
+      far_(camera.far_clip()),
+      pixels_per_unit_(std::max(std::abs(map_.x_scale), std::abs(map_.y_scale))),
+      perspective_(map_.w_from_z != 0) {}
+
+float RasterProjection::segment_length(const glm::vec3& a, const glm::vec3& b) const {
+  const float w_a = map_.w_from_z * a.z + map_.w_constant;
+  const float w_b = map_.w_from_z * b.z + map_.w_constant;
+  if (w_a <= 0 && w_b <= 0) return 0;
+  // A segment as long as its distance from the camera plane spans about pixels_per_unit; closer
+  // ones are given a few times that. Splitting halves the segment until it is either in front of
+  // the plane, or of no interest.
+  const float most =
+      4 * pixels_per_unit_ * (perspective_ ? 1.0f : std::numeric_limits<float>::max());
+  if (w_a <= 0 || w_b <= 0) return most;
+  const float dx = map_.x_scale * (a.x / w_a - b.x / w_b);
+  const float dy = map_.y_scale * (a.y / w_a - b.y / w_b);
+  float length = std::sqrt(dx * dx + dy * dy);
+  if (lens_extent_ > 0) {
+    length += lens_extent_ * std::abs(map_.coc_y(a.z) / w_a - map_.coc_y(b.z) / w_b);
+  }
+  if (std::isnan(length)) return 0;
+  return length < most ? length : most;
+}
+
+bool RasterProjection::outside_crop(std::span<const glm::vec3> points, float radius) const {
+  bool left = true, right = true, above = true, below = true, before = true, beyond = true;
+  // How far a displacement of `radius` can carry each plane's value.
+  const auto slack = [&](float scale, float offset, const AffineInZ& coc) {
+    return radius * (std::abs(scale) + std::abs(offset * map_.w_from_z) +
+                     lens_extent_ * std::abs(coc.scale));
+  };
+  const float x0 = float(crop_.x0), x1 = float(crop_.x1);
+  const float y0 = float(crop_.y0), y1 = float(crop_.y1);
+  const float slack_x0 = slack(map_.x_scale, map_.x_from_w - x0, map_.coc_x);
+  const float slack_x1 = slack(map_.x_scale, map_.x_from_w - x1, map_.coc_x);
+  const float slack_y0 = slack(map_.y_scale, map_.y_from_w - y0, map_.coc_y);
+  const float slack_y1 = slack(map_.y_scale, map_.y_from_w - y1, map_.coc_y);
+  for (const glm::vec3& p : points) {
+    const float w = map_.w_from_z * p.z + map_.w_constant;
+    const float x = map_.x_scale * p.x, y = map_.y_scale * p.y;
+    const float blur_x = lens_extent_ * std::abs(map_.coc_x(p.z));
+    const float blur_y = lens_extent_ * std::abs(map_.coc_y(p.z));
+    // Float rounding, relative to the terms that are added up.
+    const float ulp = 4e-6f * (std::abs(x) + std::abs(w) * (std::abs(map_.x_from_w) + x1) + blur_x);
+    const float vlp = 4e-6f * (std::abs(y) + std::abs(w) * (std::abs(map_.y_from_w) + y1) + blur_y);
+    left &= x + (map_.x_from_w - x0) * w + blur_x + slack_x0 + ulp < 0;
+    right &= x + (map_.x_from_w - x1) * w - blur_x - slack_x1 - ulp > 0;
+    above &= y + (map_.y_from_w - y0) * w + blur_y + slack_y0 + vlp < 0;
+    below &= y + (map_.y_from_w - y1) * w - blur_y - slack_y1 - vlp > 0;
+    before &= p.z + radius < near_;
+    beyond &= p.z - radius > far_;
+  }
+  return left || right || above || below || before || beyond;
+}
+
+bool RasterProjection::add_point(const glm::vec3& P_camera, RasterBounds& box) const {
+  const float w = map_.w_from_z * P_camera.z + map_.w_constant;
+  if (!(w > 0)) return false;
+  const float x = map_.x_scale * P_camera.x + map_.x_from_w * w;
+  const float y = map_.y_scale * P_camera.y + map_.y_from_w * w;
+  const float blur_x = lens_extent_ * std::abs(map_.coc_x(P_camera.z));
+  const float blur_y = lens_extent_ * std::abs(map_.coc_y(P_camera.z));
+  box.add((x - blur_x) / w, (y - blur_y) / w);
+  box.add((x + blur_x) / w, (y + blur_y) / w);
+  return true;
+}
+
+RasterBounds RasterProjection::bounds(std::span<const glm::vec3> points, float radius,
+                                      float& z_min) const {
+  RasterBounds box;
+  z_min = std::numeric_limits<float>::infinity();
+  bool in_front = true;
+  const auto add = [&](const glm::vec3& p) {
+    z_min = std::min(z_min, p.z);
+    in_front = in_front && add_point(p, box);
+  };
+  if (radius > 0) {
+    glm::vec3 low(std::numeric_limits<float>::infinity()), high = -low;
+    for (const glm::vec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
+    low -= radius;
+    high += radius;
+    for (int corner = 0; corner < 8; ++corner) {
+      add({corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z});
+    }
+  } else {
+    for (const glm::vec3& p : points) add(p);
+  }
+  // Also false when a coordinate is not a number.
+  const bool bounded = in_front && box.x_max - box.x_min < 1e9f && box.y_max - box.y_min < 1e9f;
+  if (!bounded) return RasterBounds::everything();
+  // Vertices are evaluated in float arithmetic by other formulas than the hull's.
+  const float pad_x = 0.01f + 1e-5f * std::max(std::abs(box.x_min), std::abs(box.x_max));
+  const float pad_y = 0.01f + 1e-5f * std::max(std::abs(box.y_min), std::abs(box.y_max));
+  return {box.x_min - pad_x, box.y_min - pad_y, box.x_max + pad_x, box.y_max + pad_y};
+}
+
+}  // namespace tessera

@@ -1,0 +1,47 @@
+#pragma once
+/// Sizes and bounds on the raster, over the shutter and the lens.
+
+#include <span>
+
+#include "cameras/camera.h"
+
+namespace tessera {
+
+/// Everything dicing needs to know of a camera, for one frame.
+class RasterProjection {
+ public:
+  RasterProjection(const Camera& camera, const PixelRect& crop);
+
+  /// Upper estimate in pixels of the raster length of the camera-space segment from a to b, from
+  /// any point of the lens; bounded where it comes close to the camera plane or crosses it, zero
+  /// behind it.
+  float segment_length(const glm::vec3& a, const glm::vec3& b) const;
+
+  /// Whether nothing in the convex hull of `points`, grown by `radius` (camera units), can be seen
+  /// in the crop rectangle by any lens coordinate. Separating planes through the eye: needs no
+  /// divide by W, so the hull may contain points behind the camera. Points at several motion keys
+  /// may be given together, for they move linearly in between.
+  bool outside_crop(std::span<const glm::vec3> points, float radius) const;
+
+  /// Raster box of the convex hull of `points` grown by `radius`, through the whole lens;
+  /// everything() when it reaches the camera plane. `z_min` receives the least camera depth.
+  RasterBounds bounds(std::span<const glm::vec3> points, float radius, float& z_min) const;
+
+  const RasterClipMap& map() const { return map_; }
+  /// Largest |u| or |v| on the lens; 0 for a pinhole.
+  float lens_extent() const { return lens_extent_; }
+
+ private:
+  /// Adds one camera-space point through the whole lens; returns false (and adds nothing) when it
+  /// is not in front of the camera plane.
+  bool add_point(const glm::vec3& P_camera, RasterBounds& box) const;
+
+  RasterClipMap map_;
+  PixelRect crop_;
+  float lens_extent_ = 0;
+  float near_ = 0, far_ = 0;
+  float pixels_per_unit_ = 1;
+  bool perspective_ = true;
+};
+
+}  // namespace tessera
