@@ -108,7 +108,6 @@ const AovDefinition& find_aov(std::string_view name);
 /// channels of groups[i] one after another: out[i][channel * samples + sample]. Matte surfaces hold
 /// out what is behind them and add nothing.
 void composite(const ShadeInput& input, const ShadedFragments& shaded, const Camera& camera,
-               std::span<const AovDefinition* const> groups,
-               std::vector<std::vector<float>>& out);
+               std::span<const AovDefinition* const> groups, std::vector<std::vector<float>>& out);
 
 }  // namespace tessera

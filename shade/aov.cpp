@@ -1,0 +1,117 @@
+#include "shade/aov.h"
+
+namespace tessera {
+namespace {
+
+void put(const glm::vec3& v, float* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
+
+void color_of(const CompositedSample& sample, float* out) { put(sample.color, out); }
+void opacity_of(const CompositedSample& sample, float* out) { put(sample.opacity, out); }
+void alpha_of(const CompositedSample& sample, float* out) {
+  out[0] = (sample.opacity.x + sample.opacity.y + sample.opacity.z) / 3.0f;
+}
+
+void depth_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
+  out[0] = input.fragments->z[fragment];
+}
+
+void position_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
+  const FragmentGeometry seen(input, fragment);
+  put(seen.P_camera(seen.time), out);
+}
+
+void normal_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
+  const FragmentGeometry seen(input, fragment);
+  const Grid& grid = *seen.grid;
+  const glm::vec3 sum(seen.interpolate(grid.N(0)), seen.interpolate(grid.N(1)),
+                      seen.interpolate(grid.N(2)));
+  const float length = glm::length(sum);
+  put(length > 0.0f ? sum / length : glm::vec3(0.0f), out);
+}
+
+void st_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
+  const FragmentGeometry seen(input, fragment);
+  const float* st = seen.grid->st.data();
+  out[0] = seen.interpolate(st);
+  out[1] = seen.interpolate(st + seen.grid->stride());
+}
+
+void motion_of(const ShadeInput& input, size_t fragment, const Camera& camera, float* out) {
+  out[0] = out[1] = 0.0f;
+  const FragmentGeometry seen(input, fragment);
+  if (seen.grid->key_count() < 2) return;
+  const glm::vec3 open = camera.raster_clip_from_camera(seen.P_camera(0.0f));
+  const glm::vec3 close = camera.raster_clip_from_camera(seen.P_camera(1.0f));
+  if (!(open.z > 0.0f && close.z > 0.0f)) return;  // at or behind the eye there is no raster place
+  out[0] = close.x / close.z - open.x / open.z;
+  out[1] = close.y / close.z - open.y / open.z;
+}
+
+void id_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
+  out[0] = float(input.grids[input.fragments->grid[fragment]]->id.surface + 1);
+}
+
+/// Depth where nothing is seen: RI_INFINITY of the RenderMan Interface.
+constexpr float infinite_depth = 1e38f;
+
+constexpr ChannelFilter filtered = ChannelFilter::filtered, closest = ChannelFilter::closest;
+
+std::span<const AovEvaluator> evaluators() {
+  static const AovEvaluator table[] = {
+      {{"rgb", "colour", {"R", "G", "B"}, filtered, 0.0f}, color_of, nullptr},
+      {{"a", "alpha: mean of the three opacities", {"A"}, filtered, 0.0f}, alpha_of, nullptr},
+      {{"z", "camera depth", {"Z"}, closest, infinite_depth}, nullptr, depth_of},
+      {{"Ci", "colour, as a group of its own", {"Ci.R", "Ci.G", "Ci.B"}, filtered, 0.0f},
+       color_of,
+       nullptr},
+      {{"Oi", "opacity", {"Oi.R", "Oi.G", "Oi.B"}, filtered, 0.0f}, opacity_of, nullptr},
+      {{"P", "position in camera space, when seen", {"P.x", "P.y", "P.z"}, closest, 0.0f},
+       nullptr,
+       position_of},
+      {{"N", "unit normal in camera space at shutter open", {"N.x", "N.y", "N.z"}, closest, 0.0f},
+       nullptr,
+       normal_of},
+      {{"st", "texture coordinates", {"st.x", "st.y"}, closest, 0.0f}, nullptr, st_of},
+      {{"motion",
+        "raster displacement from shutter open to close, pixels",
+        {"motion.x", "motion.y"},
+        closest,
+        0.0f},
+       nullptr,
+       motion_of},
+      {{"id", "number of the surface in scene order, from 1", {"id"}, closest, 0.0f},
+       nullptr,
+       id_of},
+  };
+  return table;
+}
+
+}  // namespace
+
+const AovEvaluator& evaluator_of(const AovDefinition& definition) {
+  const std::string_view name = definition.name;
+  for (const AovEvaluator& evaluator : evaluators()) {
+    if (evaluator.definition.name == name) return evaluator;
+  }
+  throw Error(fmt::format("no channel group is called \"{}\"", name));
+}
+
+std::span<const AovDefinition> aov_registry() {
+  static const std::vector<AovDefinition> table = [] {
+    std::vector<AovDefinition> definitions;
+    for (const AovEvaluator& evaluator : evaluators()) definitions.push_back(evaluator.definition);
+    return definitions;
+  }();
+  return table;
+}
+
+const AovDefinition& find_aov(std::string_view name) {
+  std::string choices;
+  for (const AovDefinition& definition : aov_registry()) {
+    if (definition.name == name) return definition;
+    choices += fmt::format("{}{}", choices.empty() ? "" : ", ", definition.name);
+  }
+  throw Error(fmt::format("unknown channel group \"{}\"; expected one of: {}", name, choices));
+}
+
+}  // namespace tessera

@@ -1,0 +1,145 @@
+#include "shade/bindings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tessera {
+namespace {
+
+/// The definition a scene's call means; null, said once, when there is none.
+const ShaderDefinition* look_up(ShaderKind kind, const ShaderCall& call, const char* instead,
+                                Diagnostics& diagnostics) {
+  const ShaderDefinition* found = find_shader(kind, shader_stem(call.name));
+  if (!found) {
+    diagnostics.warn_once(
+        fmt::format("unknown {} shader {}", name_of(kind), call.name), call.where,
+        fmt::format("unknown {} shader \"{}\"; {}", name_of(kind), call.name, instead));
+  }
+  return found;
+}
+
+}  // namespace
+
+std::string_view shader_stem(std::string_view name) {
+  if (const size_t slash = name.find_last_of("/\\"); slash != std::string_view::npos) {
+    name.remove_prefix(slash + 1);
+  }
+  return name.substr(0, name.find('.'));
+}
+
+ShaderBindings::ShaderBindings(const ShadeSetup& setup)
+    : setup_(setup),
+      camera_from_world_(setup.camera->camera_from_world(0.0f)),
+      textures_(std::make_unique<FrameTextures>(setup.texture_sampler, *setup.diagnostics)) {
+  camera_length_of_world_ =
+      float(std::cbrt(std::abs(glm::determinant(glm::dmat3(camera_from_world_)))));
+  bind_lights();
+  for (const Surface& surface : setup.scene->surfaces) {
+    const Attributes& attributes = *surface.attributes;
+    if (of_attributes_.contains(&attributes)) continue;
+    auto binding = std::make_unique<SurfaceBinding>(
+        SurfaceBinding{bind_surface(attributes), bind_displacement(attributes), {}});
+    for (const int index : attributes.lights) {
+      const std::optional<BoundLight>& light = lights_.at(size_t(index));
+      if (light) binding->lights.push_back(&*light);
+    }
+    any_displacement_ |= binding->displacement.has_value();
+    of_attributes_.emplace(&attributes, binding.get());
+    bindings_.push_back(std::move(binding));
+  }
+}
+
+const SurfaceBinding& ShaderBindings::of(const Attributes& attributes) const {
+  const auto found = of_attributes_.find(&attributes);
+  if (found == of_attributes_.end()) {
+    throw std::logic_error("attributes of a surface that is not in the bound scene");
+  }
+  return *found->second;
+}
+
+ShaderSpaces ShaderBindings::spaces_of(const ShaderCall& call) const {
+  ShaderSpaces spaces;
+  spaces.camera_from_shader = camera_from_world_ * call.world_from_shader.at(0.0f);
+  if (glm::determinant(spaces.camera_from_shader) != 0.0) {
+    spaces.shader_from_camera = glm::inverse(spaces.camera_from_shader);
+  } else {
+    diagnostics().warn_once("singular shader space " + call.name, call.where,
+                            fmt::format("the space of shader \"{}\" is singular; its patterns are "
+                                        "evaluated in camera space",
+                                        call.name));
+  }
+  return spaces;
+}
+
+BoundShader ShaderBindings::bind(ShaderKind kind, const ShaderDefinition& definition,
+                                 const ShaderCall& call) const {
+  const ShaderSpaces spaces = spaces_of(call);
+  const std::string label = fmt::format("{} shader \"{}\"", name_of(kind), definition.name);
+  return {&definition, BoundParameters(definition.parameters, call, spaces, label, diagnostics()),
+          spaces, glm::inverse(camera_from_world_), call.where};
+}
+
+BoundShader ShaderBindings::bind_surface(const Attributes& attributes) const {
+  const ShaderDefinition* fallback = find_shader(ShaderKind::surface, "defaultsurface");
+  if (!fallback) throw std::logic_error("there is no default surface shader");
+  if (!attributes.surface) return bind(ShaderKind::surface, *fallback, ShaderCall{});
+  const ShaderDefinition* found = look_up(ShaderKind::surface, *attributes.surface,
+                                          "the default surface is used", diagnostics());
+  if (found) return bind(ShaderKind::surface, *found, *attributes.surface);
+  // The unknown shader's parameters mean nothing to the default one.
+  ShaderCall call;
+  call.world_from_shader = attributes.surface->world_from_shader;
+  call.where = attributes.surface->where;
+  return bind(ShaderKind::surface, *fallback, call);
+}
+
+std::optional<BoundShader> ShaderBindings::bind_displacement(const Attributes& attributes) const {
+  if (!attributes.displacement) return std::nullopt;
+  const ShaderDefinition* found = look_up(ShaderKind::displacement, *attributes.displacement,
+                                          "the surface is not displaced", diagnostics());
+  if (!found) return std::nullopt;
+  return bind(ShaderKind::displacement, *found, *attributes.displacement);
+}
+
+void ShaderBindings::bind_lights() {
+  lights_.resize(setup_.scene->lights.size());
+  for (size_t i = 0; i < lights_.size(); ++i) {
+    const Light& light = setup_.scene->lights[i];
+    if (light.area) {
+      diagnostics().warn_once("area light", light.shader.where,
+                              "area lights do not illuminate yet; this one is left dark");
+      continue;
+    }
+    const LightDefinition* definition = choose_light(light.shader, diagnostics());
+    if (!definition) continue;
+    const std::string label = fmt::format("light shader \"{}\"", definition->name);
+    lights_[i] =
+        BoundLight{definition, BoundParameters(definition->parameters, light.shader,
+                                               spaces_of(light.shader), label, diagnostics())};
+  }
+}
+
+std::shared_ptr<const ShaderBindings> bind_shaders(const ShadeSetup& setup) {
+  return std::make_shared<const ShaderBindings>(setup);
+}
+
+bool may_be_transparent(const ShaderBindings& bindings, const Surface& surface) {
+  const glm::vec3& opacity = surface.attributes->opacity;
+  if (!(opacity.x >= 1.0f && opacity.y >= 1.0f && opacity.z >= 1.0f)) return true;
+  if (find_parameter(surface.geometry->primvars, "Os")) return true;
+  return bindings.of(*surface.attributes).surface.definition->sets_opacity;
+}
+
+bool wants_primvar(const ShaderBindings& bindings, const Attributes& attributes,
+                   std::string_view name) {
+  if (name == "Cs" || name == "Os") return true;
+  const auto reads = [&](const BoundShader& shader) {
+    return shader.parameters.find(name) >= 0 ||
+           std::ranges::count(shader.definition->primvars, name) > 0;
+  };
+  const SurfaceBinding& binding = bindings.of(attributes);
+  return reads(binding.surface) || (binding.displacement && reads(*binding.displacement));
+}
+
+}  // namespace tessera

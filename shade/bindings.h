@@ -1,0 +1,75 @@
+#pragma once
+/// The shaders, lights and textures of a scene, looked up and given their parameters once a frame.
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "shade/shade.h"
+#include "shade/shader.h"
+#include "shade/textures.h"
+
+namespace tessera {
+
+/// A shader with the parameters of one call.
+struct BoundShader {
+  const ShaderDefinition* definition = nullptr;
+  BoundParameters parameters;
+  ShaderSpaces spaces;
+  glm::dmat4 world_from_camera{1.0};
+  SourceLocation where;
+};
+
+/// Everything that shades the surfaces under one Attributes.
+struct SurfaceBinding {
+  BoundShader surface;
+  std::optional<BoundShader> displacement;
+  std::vector<const BoundLight*> lights;
+};
+
+/// Immutable once made, and thread safe.
+class ShaderBindings {
+ public:
+  /// Binds what every surface of setup.scene calls. Spaces are those at shutter open.
+  explicit ShaderBindings(const ShadeSetup& setup);
+  ShaderBindings(const ShaderBindings&) = delete;
+  ShaderBindings& operator=(const ShaderBindings&) = delete;
+
+  /// `attributes` belongs to a surface of the scene.
+  const SurfaceBinding& of(const Attributes& attributes) const;
+  bool any_displacement() const { return any_displacement_; }
+  const Camera& camera() const { return *setup_.camera; }
+  Diagnostics& diagnostics() const { return *setup_.diagnostics; }
+  FrameTextures& textures() const { return *textures_; }
+  /// Camera units in one world unit.
+  float camera_length_of_world() const { return camera_length_of_world_; }
+
+ private:
+  BoundShader bind(ShaderKind kind, const ShaderDefinition& definition,
+                   const ShaderCall& call) const;
+  BoundShader bind_surface(const Attributes& attributes) const;
+  std::optional<BoundShader> bind_displacement(const Attributes& attributes) const;
+  void bind_lights();
+  ShaderSpaces spaces_of(const ShaderCall& call) const;
+
+  ShadeSetup setup_;
+  glm::dmat4 camera_from_world_{1.0};
+  float camera_length_of_world_ = 1.0f;
+  bool any_displacement_ = false;
+  std::unique_ptr<FrameTextures> textures_;
+  std::vector<std::optional<BoundLight>> lights_;  ///< as Scene::lights; empty: does not shine
+  std::vector<std::unique_ptr<SurfaceBinding>> bindings_;  ///< in the order surfaces need them
+  std::unordered_map<const Attributes*, const SurfaceBinding*> of_attributes_;  ///< look-up only
+};
+
+/// A shader's plain name: "shaders/plastic.sl" gives "plastic".
+std::string_view shader_stem(std::string_view name);
+
+/// The definition a scene's light means: by name or, when unknown, guessed from the parameters it
+/// is given (coneangle: spotlight; from and to: distantlight; from: pointlight). Null: no guess.
+/// Whatever is not exact is said once.
+const LightDefinition* choose_light(const ShaderCall& call, Diagnostics& diagnostics);
+
+}  // namespace tessera

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <limits>
+
+#include "shade/aov.h"
+
+namespace tessera {
+namespace {
+
+constexpr size_t nothing = std::numeric_limits<size_t>::max();
+
+struct FragmentRange {
+  size_t begin, end;
+};
+
+FragmentRange fragments_of(const FragmentList& fragments, size_t sample) {
+  return {fragments.first_of_sample[sample], fragments.first_of_sample[sample + 1]};
+}
+
+bool is_matte(const ShadeInput& input, size_t fragment) {
+  return input.grids[input.fragments->grid[fragment]]->attributes().matte;
+}
+
+glm::vec3 at(const std::array<std::vector<float>, 3>& values, size_t fragment) {
+  return {values[0][fragment], values[1][fragment], values[2][fragment]};
+}
+
+/// The "over" operator front to back (T. Porter, T. Duff, "Compositing digital images", SIGGRAPH
+/// 1984), a channel at a time because opacity has three.
+CompositedSample composite_sample(const ShadeInput& input, const ShadedFragments& shaded,
+                                  FragmentRange range) {
+  CompositedSample sum;
+  glm::vec3 through(1.0f);  // share of light from behind that passes what has been met so far
+  for (size_t f = range.begin; f < range.end; ++f) {
+    const glm::vec3 opacity = at(shaded.Oi, f);
+    if (!is_matte(input, f)) {
+      sum.color += through * at(shaded.Ci, f);
+      sum.opacity += through * opacity;
+    }
+    through *= 1.0f - opacity;
+  }
+  return sum;
+}
+
+/// The nearest fragment that is not wholly transparent, unless it is matte.
+size_t nearest_surface(const ShadeInput& input, const ShadedFragments& shaded,
+                       FragmentRange range) {
+  for (size_t f = range.begin; f < range.end; ++f) {
+    if (at(shaded.Oi, f) == glm::vec3(0.0f)) continue;
+    return is_matte(input, f) ? nothing : f;
+  }
+  return nothing;
+}
+
+constexpr size_t largest_group = 4;  // channels
+
+/// Calls write(sample, values) for every sample and stores what it wrote.
+template <class Write>
+void for_samples(size_t samples, size_t channels, std::vector<float>& out, Write write) {
+  out.resize(channels * samples);
+  float values[largest_group];
+  for (size_t s = 0; s < samples; ++s) {
+    write(s, values);
+    for (size_t c = 0; c < channels; ++c) out[c * samples + s] = values[c];
+  }
+}
+
+}  // namespace
+
+void composite(const ShadeInput& input, const ShadedFragments& shaded, const Camera& camera,
+               std::span<const AovDefinition* const> groups, std::vector<std::vector<float>>& out) {
+  const size_t samples = input.samples->size();
+  std::vector<const AovEvaluator*> evaluators;
+  for (const AovDefinition* group : groups) evaluators.push_back(&evaluator_of(*group));
+  const auto any_has = [&](auto member) {
+    return std::ranges::any_of(evaluators, [&](const auto* e) { return e->*member != nullptr; });
+  };
+  std::vector<CompositedSample> composited;
+  if (any_has(&AovEvaluator::of_sample)) {
+    composited.resize(samples);
+    for (size_t s = 0; s < samples; ++s) {
+      composited[s] = composite_sample(input, shaded, fragments_of(*input.fragments, s));
+    }
+  }
+  std::vector<size_t> nearest;
+  if (any_has(&AovEvaluator::of_surface)) {
+    nearest.resize(samples);
+    for (size_t s = 0; s < samples; ++s) {
+      nearest[s] = nearest_surface(input, shaded, fragments_of(*input.fragments, s));
+    }
+  }
+  out.resize(groups.size());
+  for (size_t g = 0; g < groups.size(); ++g) {
+    const AovEvaluator& evaluator = *evaluators[g];
+    const size_t channels = evaluator.definition.channels.size();
+    for_samples(samples, channels, out[g], [&](size_t s, float* values) {
+      if (evaluator.of_sample) return evaluator.of_sample(composited[s], values);
+      if (nearest[s] != nothing) {
+        return evaluator.of_surface(input, nearest[s], camera, values);
+      }
+      std::fill_n(values, channels, evaluator.definition.background);
+    });
+  }
+}
+
+}  // namespace tessera

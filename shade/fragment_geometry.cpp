@@ -1,0 +1,38 @@
+#include "shade/fragment_geometry.h"
+
+#include <algorithm>
+
+namespace tessera {
+
+FragmentGeometry::FragmentGeometry(const ShadeInput& input, size_t fragment) {
+  const FragmentList& fragments = *input.fragments;
+  grid = input.grids[fragments.grid[fragment]].get();
+  const int triangle = int(fragments.triangle[fragment]);
+  const int micropolygon = triangle / 2, row = grid->u_count + 1;
+  const int a = micropolygon / grid->u_count * row + micropolygon % grid->u_count;
+  const int b = a + 1, c = a + row, d = c + 1;
+  corner = triangle % 2 == 0 ? std::array{a, b, d} : std::array{a, d, c};
+  const float b1 = fragments.b1[fragment], b2 = fragments.b2[fragment];
+  weight = {1.0f - b1 - b2, b1, b2};
+  const AlignedVector<float>& times = input.samples->t;
+  time = times.empty() ? 0.0f : times[fragments.sample[fragment]];
+}
+
+glm::vec3 FragmentGeometry::P_camera(float t) const {
+  const std::vector<float>& times = grid->key_times;
+  const int last = grid->key_count() - 1;
+  // The first key at or after t, and the share of it against the key before.
+  const int after =
+      std::min(last, int(std::lower_bound(times.begin(), times.end(), t) - times.begin()));
+  const int before = std::max(after - 1, 0);
+  const float span = times[size_t(after)] - times[size_t(before)];
+  const float share = span > 0.0f ? std::min(1.0f, (t - times[size_t(before)]) / span) : 0.0f;
+  glm::vec3 P;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float p0 = interpolate(grid->P(before, axis));
+    P[axis] = share == 0.0f ? p0 : p0 + share * (interpolate(grid->P(after, axis)) - p0);
+  }
+  return P;
+}
+
+}  // namespace tessera

@@ -1,0 +1,28 @@
+#pragma once
+/// What a fragment shows: values of its grid at the fragment's barycentrics and time.
+
+#include <array>
+
+#include "shade/shade.h"
+
+namespace tessera {
+
+/// A fragment resolved to the vertices it lies between.
+struct FragmentGeometry {
+  const Grid* grid = nullptr;
+  std::array<int, 3> corner{};    ///< vertices A, B, C of its triangle (dice/grid.h)
+  std::array<float, 3> weight{};  ///< barycentric weights of A, B, C
+  float time = 0.0f;              ///< shutter time it was seen at
+
+  FragmentGeometry(const ShadeInput& input, size_t fragment);
+
+  /// A vertex array of the grid, interpolated.
+  float interpolate(const float* values) const {
+    return weight[0] * values[corner[0]] + weight[1] * values[corner[1]] +
+           weight[2] * values[corner[2]];
+  }
+  /// Camera-space position at shutter time t.
+  glm::vec3 P_camera(float t) const;
+};
+
+}  // namespace tessera

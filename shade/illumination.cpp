@@ -1,0 +1,55 @@
+#include "shade/illumination.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+/// Sharper highlights than this are narrower than any shading cell; it also keeps 1 / roughness
+/// finite.
+constexpr float least_roughness = 1e-4f;
+
+void add_diffuse(const LightSamples& light, const Vec3Input& N, int count, Vec3Array& sum) {
+  for (int i = 0; i < count; ++i) {
+    sum.add(i, light.Cl[i] * std::max(0.0f, glm::dot(N[i], light.L[i])));
+  }
+}
+
+void add_specular(const LightSamples& light, const ShadingPoints& points, const Vec3Input& N,
+                  const ScalarInput& roughness, Vec3Array& sum) {
+  for (int i = 0; i < points.count; ++i) {
+    const glm::vec3 n = N[i], l = light.L[i];
+    if (glm::dot(n, l) <= 0.0f) continue;
+    const glm::vec3 h = l - points.I[i];
+    const float n_dot_h = glm::dot(n, h);
+    if (n_dot_h <= 0.0f) continue;  // also where h is zero: light straight behind a grazing point
+    const float cosine = n_dot_h / glm::length(h);
+    sum.add(i, light.Cl[i] * std::pow(cosine, 1.0f / std::max(roughness[i], least_roughness)));
+  }
+}
+
+}  // namespace
+
+void gather_light(std::span<const BoundLight* const> lights, const ShadingPoints& points,
+                  const Vec3Input& N, const ScalarInput* roughness, Illumination& out,
+                  uint64_t& light_evaluations) {
+  out.ambient.reset(points.count);
+  out.diffuse.reset(points.count);
+  if (roughness) out.specular.reset(points.count);
+  LightSamples samples;
+  for (const BoundLight* light : lights) {
+    samples.L.reset(points.count);
+    samples.Cl.reset(points.count);
+    light->definition->illuminate(light->parameters, points, samples);
+    light_evaluations += uint64_t(points.count);
+    if (light->definition->ambient) {
+      for (int i = 0; i < points.count; ++i) out.ambient.add(i, samples.Cl[i]);
+      continue;
+    }
+    add_diffuse(samples, N, points.count, out.diffuse);
+    if (roughness) add_specular(samples, points, N, *roughness, out.specular);
+  }
+}
+
+}  // namespace tessera

@@ -1,0 +1,26 @@
+#pragma once
+/// The light-gathering functions of the RenderMan Interface (version 3.2, section 16.6): ambient(),
+/// diffuse() and specular(), for a batch of points and in one pass over the lights.
+
+#include <cstdint>
+#include <span>
+
+#include "shade/light.h"
+
+namespace tessera {
+
+/// Sums over the lights, one entry a point.
+struct Illumination {
+  Vec3Array ambient;   ///< sum of the ambient lights
+  Vec3Array diffuse;   ///< sum of Cl * max(0, N . L)
+  Vec3Array specular;  ///< sum of Cl * max(0, N . H)^(1 / roughness) where N . L > 0,
+                       ///< H = normalize(L - I)
+};
+
+/// Gathers light on surfaces with unit normals `N` that face the eye. `roughness` null: no
+/// specular. Adds to `light_evaluations` one for each point and light.
+void gather_light(std::span<const BoundLight* const> lights, const ShadingPoints& points,
+                  const Vec3Input& N, const ScalarInput* roughness, Illumination& out,
+                  uint64_t& light_evaluations);
+
+}  // namespace tessera

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <array>
+#include <mutex>
+
+#include "base/hash.h"
+#include "shade/grid_points.h"
+#include "shade/surface_shading.h"
+
+namespace tessera {
+namespace {
+
+/// The shaded vertices of a grid: made once, by whichever bucket first sees the grid, and freed
+/// with it. A pure function of the grid, so it does not matter which bucket that was.
+struct VertexColors : GridAttachment {
+  std::once_flag shaded;
+  /// One vertex after the other, so that a fragment touches three short runs of memory.
+  std::vector<std::array<float, 3>> Ci;
+  std::vector<std::array<float, 3>> Oi;  ///< empty when every vertex is opaque
+};
+
+using Weights = std::array<float, 3>;
+using Corners = std::array<size_t, 3>;
+
+/// The vertices of a triangle and the weights of a fragment inside it (dice/grid.h).
+struct Place {
+  Corners corner;
+  Weights weight;
+};
+
+Place place_of(const Grid& grid, const FragmentList& fragments, size_t f) {
+  const uint32_t micropolygon = fragments.triangle[f] / 2;
+  const size_t row = size_t(grid.u_count) + 1;
+  const size_t a =
+      micropolygon / uint32_t(grid.u_count) * row + micropolygon % uint32_t(grid.u_count);
+  if (!grid.attributes().smooth_shading) return {{a, a, a}, {1.0f, 0.0f, 0.0f}};
+  const bool first = fragments.triangle[f] % 2 == 0;  // 0 = (a, b, d), 1 = (a, d, c)
+  const size_t b = a + 1, c = a + row, d = c + 1;
+  const float b1 = fragments.b1[f], b2 = fragments.b2[f];
+  return {first ? Corners{a, b, d} : Corners{a, d, c}, {1.0f - b1 - b2, b1, b2}};
+}
+
+void interpolate(const std::vector<std::array<float, 3>>& values, const Place& place, size_t f,
+                 std::array<std::vector<float>, 3>& out) {
+  const auto& [p, q, r] = place.corner;
+  const auto& [wp, wq, wr] = place.weight;
+  for (size_t c = 0; c < 3; ++c) {
+    out[c][f] = wp * values[p][c] + wq * values[q][c] + wr * values[r][c];
+  }
+}
+
+std::vector<std::array<float, 3>> interleaved(const Vec3Array& values) {
+  std::vector<std::array<float, 3>> result(size_t(values.count()));
+  for (int i = 0; i < values.count(); ++i) {
+    const glm::vec3 v = values[i];
+    result[size_t(i)] = {v.x, v.y, v.z};
+  }
+  return result;
+}
+
+/// Shades the vertices of a grid in one batch the first time a fragment of it is visible, and
+/// interpolates between them.
+class ReyesShading : public Shading {
+ public:
+  explicit ReyesShading(std::shared_ptr<const ShaderBindings> bindings)
+      : bindings_(std::move(bindings)) {}
+
+  void shade(const ShadeInput& input, ShadedFragments& out, ShadeCounters& counters) override {
+    const FragmentList& fragments = *input.fragments;
+    for (size_t c = 0; c < 3; ++c) {
+      out.Ci[c].resize(fragments.size());
+      out.Oi[c].resize(fragments.size());
+    }
+    std::vector<const VertexColors*> colors(input.grids.size(), nullptr);
+    for (size_t f = 0; f < fragments.size(); ++f) {
+      const Grid& grid = *input.grids[fragments.grid[f]];
+      const VertexColors*& shaded = colors[fragments.grid[f]];
+      if (!shaded) shaded = &vertex_colors(grid, counters);
+      const Place place = place_of(grid, fragments, f);
+      interpolate(shaded->Ci, place, f, out.Ci);
+      if (shaded->Oi.empty()) {
+        for (size_t c = 0; c < 3; ++c) out.Oi[c][f] = 1.0f;
+      } else {
+        interpolate(shaded->Oi, place, f, out.Oi);
+      }
+    }
+  }
+
+ private:
+  const VertexColors& vertex_colors(const Grid& grid, ShadeCounters& counters) {
+    VertexColors& colors = attachment_of(grid);
+    // Not under the attachment's lock: other grids that share it need not wait for shaders.
+    std::call_once(colors.shaded, [&] { shade_vertices(grid, colors, counters); });
+    return colors;
+  }
+
+  VertexColors& attachment_of(const Grid& grid) {
+    const uint32_t hash =
+        hash_combine(hash_combine(grid.id.surface, grid.id.face),
+                     hash_combine(uint32_t(grid.id.path >> 32), uint32_t(grid.id.path)));
+    const std::scoped_lock lock(attachment_locks_[hash % attachment_locks_.size()]);
+    if (!grid.attachment) grid.attachment = std::make_unique<VertexColors>();
+    return static_cast<VertexColors&>(*grid.attachment);
+  }
+
+  void shade_vertices(const Grid& grid, VertexColors& colors, ShadeCounters& counters) const {
+    const GridPoints batch(grid, bindings_->camera(), Footprints::over_micropolygons);
+    SurfaceColors shaded;
+    shade_surface(*bindings_, bindings_->of(grid.attributes()), batch.points(), shaded, counters);
+    colors.Ci = interleaved(shaded.Ci);
+    colors.Oi = interleaved(shaded.Oi);
+    const std::array<float, 3> opaque{1.0f, 1.0f, 1.0f};
+    if (std::ranges::all_of(colors.Oi, [&](const auto& o) { return o == opaque; })) {
+      std::vector<std::array<float, 3>>().swap(colors.Oi);
+    }
+    ++counters.grids_shaded;
+  }
+
+  std::shared_ptr<const ShaderBindings> bindings_;
+  /// Each guards the attachments of the grids that hash to it.
+  std::array<std::mutex, 64> attachment_locks_;
+};
+
+}  // namespace
+
+ShadingModeDefinition shading_mode_reyes() {
+  return {"reyes", "shade the vertices of visible grids at the shading rate and interpolate",
+          [](std::string_view arguments,
+             std::shared_ptr<const ShaderBindings> bindings) -> std::unique_ptr<Shading> {
+            if (!arguments.empty()) {
+              throw Error(fmt::format("shading mode \"reyes\" takes no arguments, found \"{}\"",
+                                      arguments));
+            }
+            return std::make_unique<ReyesShading>(std::move(bindings));
+          }};
+}
+
+}  // namespace tessera

@@ -1,0 +1,112 @@
+#pragma once
+/// Surface and displacement shaders: functions over batches of points, one file of shade/shaders/
+/// each. docs/shaders.md lists them and shows how to write one.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shade/illumination.h"
+#include "shade/parameters.h"
+#include "shade/points.h"
+#include "shade/shade.h"
+
+namespace tessera {
+
+class FrameTextures;
+class ShaderContext;
+struct BoundShader;
+
+enum class ShaderKind { surface, displacement };
+const char* name_of(ShaderKind kind);
+
+/// What a surface shader computes, one entry a point, linear. It arrives sized and zeroed.
+struct SurfaceColors {
+  Vec3Array Ci;  ///< colour sent towards the eye, already multiplied by Oi
+  Vec3Array Oi;  ///< opacity
+};
+
+struct ShaderDefinition {
+  std::string name{};
+  std::vector<std::string> aliases{};  ///< other names it answers to
+  std::string help{};
+  ShaderKind kind = ShaderKind::surface;
+  std::vector<ParameterDeclaration> parameters{};
+  /// Primitive variables read besides Cs, Os and those that override a parameter of their name.
+  std::vector<std::string> primvars{};
+  bool sets_opacity = false;  ///< Oi may differ from Os
+  void (*surface)(const ShaderContext& context, SurfaceColors& out) = nullptr;
+  /// Writes signed distances along the normal, world units. Only P, N, st and primitive variables
+  /// may enter, which neighbouring grids share on their common edge; footprints may not.
+  void (*displace)(const ShaderContext& context, std::span<float> distance) = nullptr;
+};
+
+std::span<const ShaderDefinition> shader_registry();
+/// The shader of that kind called `name` or with that alias, or null.
+const ShaderDefinition* find_shader(ShaderKind kind, std::string_view name);
+
+/// What a shader may call on besides its points.
+struct ShaderServices {
+  std::span<const BoundLight* const> lights{};
+  FrameTextures* textures = nullptr;
+  ShadeCounters* counters = nullptr;
+};
+
+/// Points in the space a solid pattern lives in.
+struct PatternPoints {
+  Vec3Array P;                     ///< shader space
+  AlignedVector<float> footprint;  ///< length of a shading cell there; 0: do not filter
+};
+
+/// One run of one shader over one batch.
+class ShaderContext {
+ public:
+  /// The arguments must outlive the context.
+  ShaderContext(const BoundShader& shader, const ShadingPoints& points,
+                const ShaderServices& services);
+
+  const ShadingPoints& points() const { return points_; }
+  int count() const { return points_.count; }
+
+  /// Parameters by name: a primitive variable of the same name and size overrides the value the
+  /// scene gave. Throw std::logic_error for a name that the shader does not declare.
+  ScalarInput scalar(std::string_view name) const;
+  Vec3Input vec3(std::string_view name) const;
+  const std::string& string(std::string_view name) const;
+
+  /// Unit normals turned towards the eye (faceforward of the RenderMan Interface).
+  Vec3Array facing_normals() const;
+  /// Light arriving on surfaces with normals `N`; without `roughness` no specular sums.
+  Illumination gather(const Vec3Array& N) const;
+  Illumination gather(const Vec3Array& N, const ScalarInput& roughness) const;
+
+  /// The texture `file` at the points' own st, filtered over their footprints; magenta when the
+  /// file is missing.
+  Vec3Array texture(const std::string& file) const;
+  /// The latitude-longitude environment map `file` in the world directions of `direction_camera`
+  /// (unit), blurred over `blur` radians. Longitude 0 is world +x, z is up.
+  Vec3Array environment(const std::string& file, const Vec3Array& direction_camera,
+                        const ScalarInput& blur) const;
+
+  /// Points in shader space: the primitive variable Pref where there is one, so that patterns stick
+  /// to a deforming surface, otherwise P. List "Pref" in ShaderDefinition::primvars.
+  PatternPoints pattern_points() const;
+  /// `vector_camera` in shader space.
+  glm::vec3 shader_vector(const glm::vec3& vector_camera) const;
+
+ private:
+  /// One declared parameter after overriding.
+  struct Value {
+    const float* values;
+    size_t stride;  ///< between components; 1 when uniform
+    int step;
+  };
+  const BoundShader& shader_;
+  const ShadingPoints& points_;
+  ShaderServices services_;
+  std::vector<Value> values_;             ///< [parameter]
+  std::vector<Vec3Array> camera_values_;  ///< overriding points and vectors, in camera space
+};
+
+}  // namespace tessera

@@ -1,0 +1,26 @@
+#include "shade/shaders_common.h"
+
+namespace tessera {
+
+std::vector<ParameterDeclaration> plastic_parameters(float Kd, float Ks) {
+  return {scalar_parameter("Ka", 1.0f, "ambient share"),
+          scalar_parameter("Kd", Kd, "diffuse share"), scalar_parameter("Ks", Ks, "specular share"),
+          scalar_parameter("roughness", 0.1f, "width of highlights"),
+          color_parameter("specularcolor", glm::vec3(1.0f), "colour of highlights")};
+}
+
+void shade_plastic(const ShaderContext& context, const Vec3Input& base, SurfaceColors& out) {
+  const ShadingPoints& points = context.points();
+  const ScalarInput Ka = context.scalar("Ka"), Kd = context.scalar("Kd");
+  const ScalarInput Ks = context.scalar("Ks");
+  const Vec3Input specular_color = context.vec3("specularcolor");
+  const Illumination light = context.gather(context.facing_normals(), context.scalar("roughness"));
+  for (int i = 0; i < points.count; ++i) {
+    const glm::vec3 body = base[i] * (Ka[i] * light.ambient[i] + Kd[i] * light.diffuse[i]);
+    const glm::vec3 highlight = specular_color[i] * (Ks[i] * light.specular[i]);
+    out.Oi.set(i, points.Os[i]);
+    out.Ci.set(i, points.Os[i] * (body + highlight));
+  }
+}
+
+}  // namespace tessera
