@@ -1,0 +1,277 @@
+#include <cmath>
+#include <mutex>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "reconstruct/pixel_filter.h"
+#include "reconstruct/reconstruct.h"
+#include "reconstruct/sample_block.h"
+#include "reconstruct/sample_sums.h"
+
+namespace tessera {
+namespace {
+
+float checked_width(const char* axis, float width) {
+  if (!(width > 0) || width > 64)
+    throw Error(fmt::format("pixel filter {} width must be above 0 and up to 64 pixels, found {}",
+                            axis, width));
+  return width;
+}
+
+/// Place of the group called `name`, or -1.
+int find_group(const std::vector<const AovDefinition*>& groups, std::string_view name) {
+  for (size_t g = 0; g < groups.size(); ++g)
+    if (name == groups[g]->name) return int(g);
+  return -1;
+}
+
+/// Channels that one frame may filter: more than every group together has.
+constexpr size_t max_channels = 64;
+
+void check_channels(const std::vector<const AovDefinition*>& groups) {
+  size_t channels = 0;
+  for (const AovDefinition* group : groups) channels += group->channels.size();
+  if (channels > max_channels)
+    throw Error(fmt::format("{} channels asked for, at most {} can be", channels, max_channels));
+}
+
+}  // namespace
+
+/// The buckets' samples while someone may still need them, and the image they go to.
+class Film::Blocks {
+ public:
+  explicit Blocks(const FilmSettings& settings);
+
+  void add(int i, int j, SampleValues&& values);
+  Image finish();
+  FilmCounters counters() const;
+  int peak_blocks() const;
+
+ private:
+  struct Slot {
+    std::shared_ptr<const WeightedBlock> block;
+    int missing = 0;  ///< buckets of the neighbourhood that have not arrived
+    int waiting = 0;  ///< buckets of the neighbourhood whose pixels are not finished
+    bool arrived = false, finished = false;
+  };
+  /// A channel that is filtered, by its place in SampleValues::groups.
+  struct Filtered {
+    size_t group, channel;
+  };
+  /// A bucket's neighbourhood while its pixels are summed; null where nothing arrived.
+  struct View {
+    PixelRect buckets;
+    std::vector<std::shared_ptr<const WeightedBlock>> blocks;
+  };
+
+  int columns() const { return (crop().width() + size() - 1) / size(); }
+  int rows() const { return (crop().height() + size() - 1) / size(); }
+  int size() const { return settings_.bucket_size; }
+  const PixelRect& crop() const { return settings_.crop; }
+  Slot& slot(int i, int j) { return slots_[size_t(j) * size_t(columns()) + size_t(i)]; }
+  PixelRect rect(int i, int j) const;
+  PixelRect neighbourhood(int i, int j) const;
+  template <class Visit>
+  void for_neighbours(int i, int j, Visit visit);
+
+  View view_of(int i, int j);
+  void finish_bucket(int i, int j);
+  void sum_pixel(int x, int y, const View& view);
+  const WeightedBlock* block_of(int x, int y, const View& view) const;
+  void take_closest(int x, int y, const WeightedBlock& block);
+  float exposed(float value) const;
+
+  FilmSettings settings_;
+  FilterTable x_table_, y_table_;
+  int depth_group_, color_group_;
+  Image image_;
+  std::vector<Filtered> filtered_;
+  std::vector<std::vector<float*>> planes_;  ///< [group][channel] of image_
+  std::vector<Slot> slots_;
+  mutable std::mutex mutex_;  ///< guards slots_ and what follows
+  FilmCounters counters_;
+  int held_blocks_ = 0, peak_blocks_ = 0;
+};
+
+Film::Blocks::Blocks(const FilmSettings& settings)
+    : settings_(settings),
+      x_table_(find_pixel_filter(settings.filter), checked_width("x", settings.filter_x_width)),
+      y_table_(find_pixel_filter(settings.filter), checked_width("y", settings.filter_y_width)),
+      depth_group_(find_group(settings.groups, "z")),
+      color_group_(find_group(settings.groups, "rgb")),
+      image_(settings.display_window, settings.crop) {
+  check_channels(settings.groups);
+  for (const AovDefinition* group : settings_.groups)
+    for (const std::string& channel : group->channels)
+      image_.add_channel(channel, PixelType::float32, group->background);
+  for (size_t g = 0; g < settings_.groups.size(); ++g)
+    if (settings_.groups[g]->filter == ChannelFilter::filtered)
+      for (size_t c = 0; c < settings_.groups[g]->channels.size(); ++c) filtered_.push_back({g, c});
+  size_t next = 0;
+  for (const AovDefinition* group : settings_.groups) {
+    planes_.emplace_back();
+    for (size_t c = 0; c < group->channels.size(); ++c)
+      planes_.back().push_back(image_.channels[next++].values.data());
+  }
+  slots_.resize(size_t(columns()) * size_t(rows()));
+  for (int j = 0; j < rows(); ++j)
+    for (int i = 0; i < columns(); ++i)
+      slot(i, j).missing = slot(i, j).waiting = int(neighbourhood(i, j).pixel_count());
+}
+
+PixelRect Film::Blocks::rect(int i, int j) const {
+  const int x = crop().x0 + i * size(), y = crop().y0 + j * size();
+  return PixelRect{x, y, x + size(), y + size()}.intersect(crop());
+}
+
+/// Buckets within the filter's reach of bucket (i, j), itself included, as a rectangle of buckets.
+PixelRect Film::Blocks::neighbourhood(int i, int j) const {
+  const int x_reach = (x_table_.reach_pixels() + size() - 1) / size();
+  const int y_reach = (y_table_.reach_pixels() + size() - 1) / size();
+  return PixelRect{i - x_reach, j - y_reach, i + x_reach + 1, j + y_reach + 1}.intersect(
+      {0, 0, columns(), rows()});
+}
+
+template <class Visit>
+void Film::Blocks::for_neighbours(int i, int j, Visit visit) {
+  const PixelRect near = neighbourhood(i, j);
+  for (int b = near.y0; b < near.y1; ++b)
+    for (int a = near.x0; a < near.x1; ++a) visit(a, b);
+}
+
+void Film::Blocks::add(int i, int j, SampleValues&& values) {
+  uint64_t dropped = 0;
+  auto block = std::make_shared<const WeightedBlock>(std::move(values), settings_.groups, x_table_,
+                                                     y_table_, dropped);
+  std::vector<std::pair<int, int>> ready;
+  {
+    std::lock_guard lock(mutex_);
+    slot(i, j).block = std::move(block);
+    slot(i, j).arrived = true;
+    counters_.nonfinite_samples_dropped += dropped;
+    peak_blocks_ = std::max(peak_blocks_, ++held_blocks_);
+    for_neighbours(i, j, [&](int a, int b) {
+      if (--slot(a, b).missing == 0) ready.emplace_back(a, b);
+    });
+  }
+  for (const auto& [a, b] : ready) finish_bucket(a, b);
+}
+
+Film::Blocks::View Film::Blocks::view_of(int i, int j) {
+  View view{neighbourhood(i, j), {}};
+  std::lock_guard lock(mutex_);
+  for_neighbours(i, j, [&](int a, int b) { view.blocks.push_back(slot(a, b).block); });
+  return view;
+}
+
+void Film::Blocks::finish_bucket(int i, int j) {
+  const PixelRect pixels = rect(i, j);
+  {
+    const View view = view_of(i, j);
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+      for (int x = pixels.x0; x < pixels.x1; ++x) sum_pixel(x, y, view);
+  }
+  std::lock_guard lock(mutex_);
+  slot(i, j).finished = true;
+  counters_.pixels += uint64_t(pixels.pixel_count());
+  for_neighbours(i, j, [&](int a, int b) {
+    if (--slot(a, b).waiting > 0 || !slot(a, b).block) return;
+    slot(a, b).block.reset();
+    --held_blocks_;
+  });
+}
+
+/// Sums the footprint of pixel (x, y): pixels in raster order, in double, so that neither cutting
+/// the frame into buckets nor values of 1e30 change or overflow it.
+void Film::Blocks::sum_pixel(int x, int y, const View& view) {
+  const int x_reach = x_table_.reach_pixels(), y_reach = y_table_.reach_pixels();
+  const PixelRect footprint =
+      PixelRect{x - x_reach, y - y_reach, x + x_reach + 1, y + y_reach + 1}.intersect(crop());
+  double sums[max_channels / sum_channels][1 + sum_channels] = {};
+  for (int qy = footprint.y0; qy < footprint.y1; ++qy) {
+    for (int qx = footprint.x0; qx < footprint.x1; ++qx) {
+      const WeightedBlock* block = block_of(qx, qy, view);
+      if (!block) continue;
+      const size_t first = block->first_sample(qx, qy), count = size_t(block->samples_per_pixel());
+      const float* wx = block->x_weights(x - qx) + first;
+      const float* wy = block->y_weights(y - qy) + first;
+      for (size_t batch = 0; batch * sum_channels < filtered_.size(); ++batch) {
+        const float* channels[sum_channels];
+        // The last batch repeats its first channel, and the repeats go nowhere.
+        for (size_t c = 0; c < sum_channels; ++c) {
+          const size_t k = batch * sum_channels + c;
+          const Filtered& f = filtered_[k < filtered_.size() ? k : batch * sum_channels];
+          channels[c] = block->channel(f.group, f.channel) + first;
+        }
+        add_weighted_sums(wx, wy, channels, count, sums[batch]);
+      }
+      if (qx == x && qy == y) take_closest(x, y, *block);
+    }
+  }
+  const double weight_sum = sums[0][0];
+  if (std::abs(weight_sum) < 1e-20) return;
+  const size_t pixel = image_.index(x, y);
+  for (size_t k = 0; k < filtered_.size(); ++k) {
+    const float value = float(sums[k / sum_channels][1 + k % sum_channels] / weight_sum);
+    const Filtered& f = filtered_[k];
+    planes_[f.group][f.channel][pixel] = int(f.group) == color_group_ ? exposed(value) : value;
+  }
+}
+
+const WeightedBlock* Film::Blocks::block_of(int x, int y, const View& view) const {
+  const int column = (x - crop().x0) / size() - view.buckets.x0;
+  const int row = (y - crop().y0) / size() - view.buckets.y0;
+  return view.blocks[size_t(row) * size_t(view.buckets.width()) + size_t(column)].get();
+}
+
+/// Channels that must not be averaged take the pixel's own sample of least depth. WeightedBlock has
+/// put samples that are not finite at infinite depth.
+void Film::Blocks::take_closest(int x, int y, const WeightedBlock& block) {
+  if (depth_group_ < 0) return;
+  const size_t first = block.first_sample(x, y), count = size_t(block.samples_per_pixel());
+  const float* z = block.channel(size_t(depth_group_), 0) + first;
+  size_t nearest = 0;
+  for (size_t k = 1; k < count; ++k)
+    if (z[k] < z[nearest]) nearest = k;
+  const size_t pixel = image_.index(x, y);
+  for (size_t g = 0; g < settings_.groups.size(); ++g)
+    if (settings_.groups[g]->filter == ChannelFilter::closest)
+      for (size_t c = 0; c < planes_[g].size(); ++c)
+        planes_[g][c][pixel] = block.channel(g, c)[first + nearest];
+}
+
+/// Exposure of the RenderMan interface (3.2, section 4.2.3): (gain * value)^(1 / gamma).
+float Film::Blocks::exposed(float value) const {
+  const float scaled = settings_.exposure_gain * value;
+  if (settings_.exposure_gamma == 1.0f) return scaled;
+  return std::copysign(std::pow(std::abs(scaled), 1.0f / settings_.exposure_gamma), scaled);
+}
+
+Image Film::Blocks::finish() {
+  for (int j = 0; j < rows(); ++j)
+    for (int i = 0; i < columns(); ++i)
+      if (slot(i, j).arrived && !slot(i, j).finished) finish_bucket(i, j);
+  return std::move(image_);
+}
+
+FilmCounters Film::Blocks::counters() const {
+  std::lock_guard lock(mutex_);
+  return counters_;
+}
+
+int Film::Blocks::peak_blocks() const {
+  std::lock_guard lock(mutex_);
+  return peak_blocks_;
+}
+
+Film::Film(const FilmSettings& settings) : blocks_(std::make_unique<Blocks>(settings)) {}
+Film::~Film() = default;
+void Film::add_bucket(int i, int j, SampleValues&& values) {
+  blocks_->add(i, j, std::move(values));
+}
+Image Film::finish() { return blocks_->finish(); }
+FilmCounters Film::counters() const { return blocks_->counters(); }
+int Film::peak_blocks() const { return blocks_->peak_blocks(); }
+
+}  // namespace tessera
