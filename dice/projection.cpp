@@ -12,18 +12,36 @@ RasterProjection::RasterProjection(const Camera& camera, const PixelRect& crop)
       near_(camera.near_clip()),
       far_(camera.far_clip()),
       pixels_per_unit_(std::max(std::abs(map_.x_scale), std::abs(map_.y_scale))),
-      perspective_(map_.w_from_z != 0) {}
+      perspective_(map_.w_from_z != 0) {
+  const PixelRect frame = camera.frame();
+  const auto farthest = [](float axis, int low, int high) {
+    return std::max({std::abs(float(low) - axis), std::abs(float(high) - axis), 1.0f});
+  };
+  reach_x_ = farthest(map_.x_from_w, frame.x0, frame.x1);
+  reach_y_ = farthest(map_.y_from_w, frame.y0, frame.y1);
+}
+
+float RasterProjection::visible_w(const glm::vec3& P_camera, float w) const {
+  const auto entry = [&](float lateral, float reach, const AffineInZ& coc) {
+    return (std::abs(lateral) - lens_extent_ * std::abs(coc.offset)) /
+           (reach + lens_extent_ * std::abs(coc.scale));
+  };
+  const float w_x = entry(map_.x_scale * P_camera.x, reach_x_, map_.coc_x);
+  const float w_y = entry(map_.y_scale * P_camera.y, reach_y_, map_.coc_y);
+  return std::max({w, w_x, w_y, std::max(near_, 1e-20f)});
+}
 
 float RasterProjection::segment_length(const glm::vec3& a, const glm::vec3& b) const {
-  const float w_a = map_.w_from_z * a.z + map_.w_constant;
-  const float w_b = map_.w_from_z * b.z + map_.w_constant;
+  float w_a = map_.w_from_z * a.z + map_.w_constant;
+  float w_b = map_.w_from_z * b.z + map_.w_constant;
   if (w_a <= 0 && w_b <= 0) return 0;
-  // A segment as long as its distance from the camera plane spans about pixels_per_unit; closer
-  // ones are given a few times that. Splitting halves the segment until it is either in front of
-  // the plane, or of no interest.
-  const float most =
-      4 * pixels_per_unit_ * (perspective_ ? 1.0f : std::numeric_limits<float>::max());
-  if (w_a <= 0 || w_b <= 0) return most;
+  float most = std::numeric_limits<float>::max();
+  if (perspective_) {
+    w_a = visible_w(a, w_a), w_b = visible_w(b, w_b);
+    // A segment as long as its distance from the camera plane spans about pixels_per_unit; what
+    // passes through the lens itself is given a few times that.
+    most = 4 * pixels_per_unit_;
+  }
   const float dx = map_.x_scale * (a.x / w_a - b.x / w_b);
   const float dy = map_.y_scale * (a.y / w_a - b.y / w_b);
   float length = std::sqrt(dx * dx + dy * dy);

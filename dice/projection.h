@@ -13,8 +13,9 @@ class RasterProjection {
   RasterProjection(const Camera& camera, const PixelRect& crop);
 
   /// Upper estimate in pixels of the raster length of the camera-space segment from a to b, from
-  /// any point of the lens; bounded where it comes close to the camera plane or crosses it, zero
-  /// behind it.
+  /// any point of the lens, as far as the frame shows it: an end beside the frame counts where it
+  /// would enter it. So the estimate is bounded where a segment nears or crosses the camera plane;
+  /// behind it, it is zero. Of the frame, not the crop: a crop is diced like the whole.
   float segment_length(const glm::vec3& a, const glm::vec3& b) const;
 
   /// Whether nothing in the convex hull of `points`, grown by `radius` (camera units), can be seen
@@ -32,6 +33,10 @@ class RasterProjection {
   float lens_extent() const { return lens_extent_; }
 
  private:
+  /// The least W, at least `w` and the near plane, at which a point with this x and y could be in the
+  /// frame from some point of the lens.
+  float visible_w(const glm::vec3& P_camera, float w) const;
+
   /// Adds one camera-space point through the whole lens; returns false (and adds nothing) when it
   /// is not in front of the camera plane.
   bool add_point(const glm::vec3& P_camera, RasterBounds& box) const;
@@ -41,6 +46,7 @@ class RasterProjection {
   float lens_extent_ = 0;
   float near_ = 0, far_ = 0;
   float pixels_per_unit_ = 1;
+  float reach_x_ = 1, reach_y_ = 1;  ///< pixels from the optical axis to the frame's far side
   bool perspective_ = true;
 };
 

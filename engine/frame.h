@@ -25,6 +25,7 @@ struct FrameControl {
 struct FrameResult {
   Image image;       ///< every channel asked for, over the crop window
   Statistics statistics;
+  bool display_encoded = false;  ///< the scene's Exposure has a gamma: colours are not linear
   bool complete = true;  ///< false after a cancellation: missing buckets are black and transparent
 };
 

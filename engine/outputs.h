@@ -21,7 +21,7 @@ std::vector<std::string> display_outputs(const Scene& scene);
 std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene,
                                         Diagnostics& diagnostics);
 
-/// An 8-bit picture to look at, from the rgb channels (sRGB).
+/// An 8-bit picture to look at, from the rgb channels; sRGB unless the scene's own Exposure encodes it.
 void write_preview(const FrameResult& frame, const std::string& path);
 
 }  // namespace tessera

@@ -1,0 +1,67 @@
+#include "engine/bucket_renderer.h"
+
+#include <chrono>
+
+namespace tessera {
+namespace {
+
+/// Adds the seconds since the last lap to a stage's time.
+class LapTimer {
+ public:
+  void lap(double& into_s) {
+    const auto now = std::chrono::steady_clock::now();
+    into_s += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+void BucketRenderer::render(int i, int j) {
+  LapTimer timer;
+  const auto grids = parts_.grids.grids_of_bucket(i, j);
+  timer.lap(times_.dice_s);
+  parts_.pattern.fill(parts_.buckets.rect(i, j), samples_);
+  timer.lap(times_.sample_s);
+  hide(grids);
+  timer.lap(times_.hide_s);
+  const ShadeInput input{&fragments_, grids, &samples_};
+  parts_.shading.shade(input, shaded_, shade_counters_);
+  timer.lap(times_.shade_s);
+  SampleValues values = composite_samples(input);
+  timer.lap(times_.composite_s);
+  parts_.film.add_bucket(i, j, std::move(values));
+  timer.lap(times_.reconstruct_s);
+  parts_.grids.finish_bucket(i, j);
+  timer.lap(times_.dice_s);
+}
+
+void BucketRenderer::hide(const std::vector<std::shared_ptr<const Grid>>& grids) {
+  hide_grids_.clear();
+  for (const auto& grid : grids)
+    hide_grids_.push_back({grid.get(), !may_be_transparent(parts_.bindings, *grid->surface)});
+  HideInput input;
+  input.samples = &samples_;
+  input.grids = hide_grids_;
+  input.raster_clip = parts_.camera.raster_clip();
+  input.near_clip = parts_.camera.near_clip();
+  input.far_clip = parts_.camera.far_clip();
+  input.lens_extent = parts_.camera.lens_profile().extent();
+  input.features = parts_.features;
+  parts_.hider.hide(input, *scratch_, fragments_, hide_counters_);
+}
+
+SampleValues BucketRenderer::composite_samples(const ShadeInput& input) {
+  SampleValues values;
+  values.rect = samples_.rect;
+  values.samples_per_pixel = samples_.samples_per_pixel;
+  values.x.assign(samples_.x.begin(), samples_.x.begin() + long(samples_.size()));
+  values.y.assign(samples_.y.begin(), samples_.y.begin() + long(samples_.size()));
+  composite(input, shaded_, parts_.camera, parts_.channel_groups, values.groups);
+  return values;
+}
+
+}  // namespace tessera

@@ -1,0 +1,71 @@
+#pragma once
+/// One bucket from samples to shaded sample values. Everything here is what a worker thread does
+/// between taking a bucket and handing its samples to the film.
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "dice/dice.h"
+#include "engine/buckets.h"
+#include "hide/hide.h"
+#include "reconstruct/reconstruct.h"
+#include "shade/shade.h"
+
+namespace tessera {
+
+/// The parts of a frame that every worker shares. All outlive the workers.
+struct FrameParts {
+  const Camera& camera;
+  const BucketLayout& buckets;
+  const SamplePattern& pattern;
+  const Hider& hider;
+  HideFeatures features;
+  const ShaderBindings& bindings;
+  const std::vector<const AovDefinition*>& channel_groups;
+  GridSource& grids;
+  Shading& shading;
+  Film& film;
+};
+
+/// Seconds a worker spent in each stage.
+struct StageTimes {
+  double dice_s = 0, sample_s = 0, hide_s = 0, shade_s = 0, composite_s = 0, reconstruct_s = 0;
+  static constexpr auto fields() {
+    return std::array{std::pair{"dice_s", &StageTimes::dice_s},
+                      std::pair{"sample_s", &StageTimes::sample_s},
+                      std::pair{"hide_s", &StageTimes::hide_s},
+                      std::pair{"shade_s", &StageTimes::shade_s},
+                      std::pair{"composite_s", &StageTimes::composite_s},
+                      std::pair{"reconstruct_s", &StageTimes::reconstruct_s}};
+  }
+};
+
+/// A worker's own state: buffers that grow once and are reused, counters merged at the end.
+class BucketRenderer {
+ public:
+  explicit BucketRenderer(const FrameParts& parts)
+      : parts_(parts), scratch_(parts.hider.make_scratch()) {}
+
+  void render(int i, int j);
+
+  const HideCounters& hide_counters() const { return hide_counters_; }
+  const ShadeCounters& shade_counters() const { return shade_counters_; }
+  const StageTimes& times() const { return times_; }
+
+ private:
+  void hide(const std::vector<std::shared_ptr<const Grid>>& grids);
+  SampleValues composite_samples(const ShadeInput& input);
+
+  FrameParts parts_;
+  std::unique_ptr<Hider::Scratch> scratch_;
+  SampleBlock samples_;
+  std::vector<HideGrid> hide_grids_;
+  FragmentList fragments_;
+  ShadedFragments shaded_;
+  HideCounters hide_counters_;
+  ShadeCounters shade_counters_;
+  StageTimes times_;
+};
+
+}  // namespace tessera

@@ -1,0 +1,176 @@
+#include "engine/frame.h"
+
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+#include <fmt/format.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
+#include "engine/bucket_renderer.h"
+#include "engine/frame_statistics.h"
+#include "engine/overrides.h"
+#include "images/image_module.h"
+
+namespace tessera {
+namespace {
+
+/// Textures come from the image module, which is loaded at the first lookup only.
+ShadeSetup shade_setup(const Scene& scene, const Camera& camera, Diagnostics& diagnostics) {
+  ShadeSetup setup;
+  setup.scene = &scene;
+  setup.camera = &camera;
+  setup.diagnostics = &diagnostics;
+  setup.texture_sampler = [&scene] {
+    TextureSettings textures;
+    textures.search_path = scene.options.texture_path;
+    return std::shared_ptr<TextureSampler>(load_image_module()->make_texture_sampler(textures));
+  };
+  return setup;
+}
+
+DiceSettings dice_settings(const FramePlan& plan, const BucketLayout& buckets,
+                           const Settings& settings, const Displacer* displacer,
+                           std::shared_ptr<const ShaderBindings> bindings) {
+  DiceSettings dice;
+  dice.max_grid_size = plan.grid_size;
+  dice.crop = buckets.crop;
+  dice.bucket_size = buckets.size;
+  dice.memory_budget_bytes = settings.memory_bytes;
+  dice.displacer = displacer;
+  dice.wants_primvar = [bindings](const Attributes& attributes, std::string_view name) {
+    return wants_primvar(*bindings, attributes, name);
+  };
+  return dice;
+}
+
+std::unique_ptr<Film> make_film(const FramePlan& plan, const BucketLayout& buckets,
+                                const Camera& camera,
+                                const std::vector<const AovDefinition*>& groups,
+                                const SceneOptions& options) {
+  FilmSettings film;
+  film.display_window = camera.frame();
+  film.crop = buckets.crop;
+  film.bucket_size = buckets.size;
+  film.filter = plan.filter;
+  film.filter_x_width = plan.filter_x_width;
+  film.filter_y_width = plan.filter_y_width;
+  for (const AovDefinition* group : groups) film.groups.push_back(group);
+  film.exposure_gain = options.exposure_gain;
+  film.exposure_gamma = options.exposure_gamma;
+  return std::make_unique<Film>(film);
+}
+
+int thread_count(const Settings& settings) {
+  if (settings.threads < 0 || settings.threads > 1024)
+    throw Error(fmt::format("threads must lie between 0 and 1024, found {}", settings.threads));
+  return settings.threads > 0 ? settings.threads : int(std::thread::hardware_concurrency());
+}
+
+/// Hands out buckets row by row, so that the film and the grids hold a narrow front of the frame.
+class BucketQueue {
+ public:
+  BucketQueue(const BucketLayout& buckets, const FrameControl& control)
+      : buckets_(buckets), control_(control) {}
+
+  /// False when none is left or the frame is cancelled.
+  bool take(int& i, int& j) {
+    if (control_.cancel && control_.cancel->load(std::memory_order_relaxed)) return false;
+    const int index = next_.fetch_add(1);
+    if (index >= buckets_.count()) return false;
+    i = index % buckets_.columns(), j = index / buckets_.columns();
+    return true;
+  }
+  void done() {
+    std::lock_guard lock(mutex_);
+    ++finished_;
+    if (control_.progress) control_.progress(finished_, buckets_.count());
+  }
+  /// No further bucket is handed out.
+  void stop() { next_ = buckets_.count(); }
+  bool complete() const { return finished_ == buckets_.count(); }
+
+ private:
+  const BucketLayout& buckets_;
+  const FrameControl& control_;
+  std::atomic<int> next_{0};
+  std::mutex mutex_;
+  int finished_ = 0;
+};
+
+/// Renders every bucket on `threads` workers. An exception in one of them reaches the caller after
+/// the others have stopped.
+void render_buckets(const FrameParts& parts, int threads, BucketQueue& queue,
+                    FrameStatistics& statistics) {
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::task_group workers;
+    for (int k = 0; k < threads; ++k) {
+      workers.run([&] {
+        BucketRenderer renderer(parts);
+        try {
+          for (int i, j; queue.take(i, j); queue.done()) renderer.render(i, j);
+        } catch (...) {
+          queue.stop();
+          throw;
+        }
+        statistics.add(renderer);
+      });
+    }
+    workers.wait();
+  });
+}
+
+}  // namespace
+
+FrameResult render_frame(const Scene& original, const Settings& settings, Diagnostics& diagnostics,
+                         const FrameControl& control) {
+  FrameStatistics statistics;
+  const Scene scene = apply_overrides(original, settings);
+  const Camera camera(scene.camera);
+  const auto bindings = bind_shaders(shade_setup(scene, camera, diagnostics));
+  const FramePlan plan = make_plan(scene, scene.camera, settings, *bindings);
+  const BucketLayout buckets{camera.crop(), plan.bucket_size};
+
+  std::vector<const AovDefinition*> groups;
+  for (const std::string& name : plan.channel_groups) groups.push_back(&find_aov(name));
+  const auto film = make_film(plan, buckets, camera, groups, scene.options);
+  const auto hider = make_hider(plan.hider);
+  const auto shading = make_shading(plan.shading, bindings);
+  const int threads = thread_count(settings);
+
+  FrameResult result;
+  if (!scene.surfaces.empty()) {
+    const auto displacer = plan.displacement ? make_displacer(bindings) : nullptr;
+    const SamplePattern pattern(plan.samples_per_pixel, settings.seed,
+                                plan.lens ? &camera.lens_profile() : nullptr,
+                                plan.motion ? &camera.shutter_profile() : nullptr);
+    const auto grids = make_grid_source(
+        scene, camera, dice_settings(plan, buckets, settings, displacer.get(), bindings),
+        diagnostics);
+    statistics.setup_done();
+    const HideFeatures features{plan.motion, plan.lens, plan.transparency};
+    const FrameParts parts{camera,    buckets, pattern, *hider,   features,
+                           *bindings, groups,  *grids,  *shading, *film};
+    BucketQueue queue(buckets, control);
+    render_buckets(parts, threads, queue, statistics);
+    result.complete = queue.complete();
+    statistics.add(*grids);
+  }
+  result.display_encoded = scene.options.exposure_gamma != 1.0f;
+  result.image = film->finish();
+  result.image.pixel_aspect = scene.camera.pixel_aspect;
+  statistics.add(film->counters());
+  result.statistics = statistics.finish(plan, scene, settings, threads, diagnostics);
+  return result;
+}
+
+FramePlan plan_frame(const Scene& original, const Settings& settings, Diagnostics& diagnostics) {
+  const Scene scene = apply_overrides(original, settings);
+  const Camera camera(scene.camera);
+  return make_plan(scene, scene.camera, settings,
+                   *bind_shaders(shade_setup(scene, camera, diagnostics)));
+}
+
+}  // namespace tessera

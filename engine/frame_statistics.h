@@ -1,0 +1,40 @@
+#pragma once
+/// Gathers what the workers and stages counted into the frame's Statistics.
+
+#include <chrono>
+#include <mutex>
+
+#include "engine/bucket_renderer.h"
+#include "engine/plan.h"
+#include "engine/statistics.h"
+
+namespace tessera {
+
+/// Starts the clock when constructed. add() is thread safe.
+class FrameStatistics {
+ public:
+  void setup_done() { setup_s_ = elapsed_s(); }
+  void add(const BucketRenderer& worker);
+  void add(const GridSource& grids);
+  void add(const FilmCounters& film) { merge_counters(film_, film); }
+
+  Statistics finish(const FramePlan& plan, const Scene& scene, const Settings& settings,
+                    int threads, const Diagnostics& diagnostics) const;
+
+ private:
+  double elapsed_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double setup_s_ = 0;
+  std::mutex mutex_;
+  StageTimes times_;
+  HideCounters hide_;
+  ShadeCounters shade_;
+  DiceCounters dice_;
+  FilmCounters film_;
+  size_t peak_grid_bytes_ = 0;
+};
+
+}  // namespace tessera

@@ -1,0 +1,172 @@
+#include "engine/outputs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "engine/version.h"
+#include "images/exr.h"
+#include "images/image_module.h"
+#include "shade/shade.h"
+
+namespace tessera {
+namespace {
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return extension;
+}
+
+bool is_exr(const std::string& path) { return lower_extension(path) == ".exr"; }
+
+/// Displays of interactive windows have no place in a batch.
+bool is_file(const Display& display) {
+  return display.type != "framebuffer" && !display.file.empty();
+}
+
+/// Depth files keep their name whatever its extension; they are EXR inside.
+bool is_depth_file(const Display& display) {
+  return display.type == "zfile" || display.type == "shadow";
+}
+
+std::string display_path(const Display& display) {
+  std::string path = display.file;
+  // A leading + adds a display to those before it (RI 3.2, Display).
+  if (!path.empty() && path.front() == '+') path.erase(0, 1);
+  return path;
+}
+
+/// Channel names of a Display mode: a group's name, or letters of r, g, b, a, z run together.
+std::vector<std::string> mode_channels(const Display& display) {
+  for (const AovDefinition& group : aov_registry())
+    if (display.mode == group.name) return group.channels;
+  std::vector<std::string> channels;
+  for (char letter : display.mode) {
+    switch (letter) {
+      case 'r':
+        channels.push_back("R");
+        break;
+      case 'g':
+        channels.push_back("G");
+        break;
+      case 'b':
+        channels.push_back("B");
+        break;
+      case 'a':
+        channels.push_back("A");
+        break;
+      case 'z':
+        channels.push_back("Z");
+        break;
+      default:
+        throw Error(display.where,
+                    fmt::format("Display mode '{}': expected letters of rgbaz or the name of an "
+                                "auxiliary channel group",
+                                display.mode));
+    }
+  }
+  return channels;
+}
+
+void add_metadata(Image& image, const FrameResult& frame, const Scene& scene) {
+  image.metadata["software"] = fmt::format("Tessera {}", version);
+  image.metadata["tessera:scene"] = scene.file;
+  image.metadata["tessera:frame"] = std::to_string(scene.frame_number);
+  image.metadata["tessera:complete"] = frame.complete ? "yes" : "no, cancelled";
+  image.metadata["tessera:summary"] = frame.statistics.summary();
+  for (const auto& [name, value] : frame.statistics.plan)
+    image.metadata["tessera:plan:" + name] = value;
+  for (const auto& [name, value] : frame.statistics.options)
+    image.metadata["tessera:option:" + name] = value;
+  image.metadata["capDate"] =
+      fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+}
+
+Image with_channels(const Image& image, const std::vector<std::string>& names) {
+  Image picked(image.display_window, image.data_window);
+  picked.pixel_aspect = image.pixel_aspect;
+  for (const std::string& name : names)
+    if (const Image::Channel* channel = image.find_channel(name))
+      picked.channels.push_back(*channel);
+  return picked;
+}
+
+/// The linear value whose sRGB code value is `code` (IEC 61966-2-1).
+float linear_from_srgb(float code) {
+  return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
+}
+
+/// Undoes, for colours that a scene's own Exposure has made fit for a display, the encoding that an
+/// 8-bit file is about to apply.
+void decode_colours(Image& image) {
+  for (Image::Channel& channel : image.channels)
+    if (channel.name == "R" || channel.name == "G" || channel.name == "B")
+      for (float& value : channel.values) value = linear_from_srgb(value);
+}
+
+bool is_8_bit(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+void write_image_file(Image image, const std::string& path, bool as_exr, bool display_encoded) {
+  if (as_exr) return write_exr(path, image);
+  if (display_encoded && is_8_bit(path)) decode_colours(image);
+  load_image_module()->write_image(path, image);
+}
+
+}  // namespace
+
+void write_frame(const FrameResult& frame, const Scene& scene, const std::string& path) {
+  const bool as_exr = is_exr(path);
+  // Formats other than EXR hold one picture.
+  Image image = as_exr ? frame.image : with_channels(frame.image, {"R", "G", "B", "A"});
+  add_metadata(image, frame, scene);
+  write_image_file(image, path, as_exr, frame.display_encoded);
+}
+
+std::vector<std::string> display_outputs(const Scene& scene) {
+  std::vector<std::string> paths;
+  for (const Display& display : scene.displays)
+    if (is_file(display)) paths.push_back(display_path(display));
+  if (paths.empty()) paths.push_back(std::filesystem::path(scene.file).stem().string() + ".exr");
+  return paths;
+}
+
+std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene,
+                                        Diagnostics& diagnostics) {
+  std::vector<std::string> written;
+  for (const Display& display : scene.displays) {
+    if (!is_file(display)) continue;
+    Image image = with_channels(frame.image, mode_channels(display));
+    if (image.channels.empty()) {
+      diagnostics.warn_once("display " + display.file, display.where,
+                            fmt::format("Display mode '{}' names no channel; '{}' is not written",
+                                        display.mode, display.file));
+      continue;
+    }
+    add_metadata(image, frame, scene);
+    const std::string path = display_path(display);
+    write_image_file(image, path, is_depth_file(display) || is_exr(path), frame.display_encoded);
+    written.push_back(path);
+  }
+  if (written.empty()) {
+    written = display_outputs(scene);
+    write_frame(frame, scene, written.front());
+  }
+  return written;
+}
+
+void write_preview(const FrameResult& frame, const std::string& path) {
+  const Image picture = with_channels(frame.image, {"R", "G", "B"});
+  write_image_file(picture, path, is_exr(path), frame.display_encoded);
+}
+
+}  // namespace tessera

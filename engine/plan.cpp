@@ -1,0 +1,138 @@
+#include "engine/plan.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "shade/shade.h"
+
+namespace tessera {
+namespace {
+
+/// Largest bucket side; beyond it a bucket's samples outgrow any cache for no gain.
+constexpr int max_bucket_size = 4096;
+constexpr int max_grid_size = 256;
+
+bool shutter_opens(const CameraSettings& camera) {
+  return camera.shutter_close > camera.shutter_open;
+}
+
+bool surface_moves(const Surface& surface) {
+  return surface.world_from_object.moves() || surface.geometry->key_times.size() > 1;
+}
+
+bool names_a_texture(const ShaderCall& shader) {
+  return std::any_of(shader.parameters.begin(), shader.parameters.end(), [](const Parameter& p) {
+    return p.type == ValueType::string && p.name.find("name") != std::string::npos &&
+           !p.strings.empty() && !p.strings.front().empty();
+  });
+}
+
+int checked(const char* what, int value, int low, int high) {
+  if (value < low || value > high)
+    throw Error(fmt::format("{} must lie between {} and {}, found {}", what, low, high, value));
+  return value;
+}
+
+float parse_width(std::string_view text, const std::string& spec) {
+  float width = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), width);
+  if (error != std::errc() || end != text.data() + text.size() || !(width > 0) || width > 64)
+    throw Error(fmt::format(
+        "filter '{}': expected NAME or NAME:XxY with widths in pixels above 0 and up to 64", spec));
+  return width;
+}
+
+/// Splits "name:XxY" into the plan's filter.
+void set_filter(FramePlan& plan, const std::string& spec) {
+  const size_t colon = spec.find(':');
+  plan.filter = spec.substr(0, colon);
+  if (colon == std::string::npos) return;
+  const std::string_view widths = std::string_view(spec).substr(colon + 1);
+  const size_t cross = widths.find('x');
+  plan.filter_x_width = parse_width(widths.substr(0, cross), spec);
+  plan.filter_y_width = cross == std::string_view::npos
+                            ? plan.filter_x_width
+                            : parse_width(widths.substr(cross + 1), spec);
+}
+
+/// "rgb", "a" and "z" first, then whatever the displays and the settings name.
+std::vector<std::string> channel_groups_of(const Scene& scene, const Settings& settings) {
+  std::vector<std::string> groups{"rgb", "a", "z"};
+  const auto add = [&](const std::string& name) {
+    if (std::find(groups.begin(), groups.end(), name) == groups.end()) groups.push_back(name);
+  };
+  for (const Display& display : scene.displays)
+    for (const AovDefinition& aov : aov_registry())
+      if (display.mode == aov.name) add(aov.name);
+  for (const std::string& name : settings.aovs) add(find_aov(name).name);
+  return groups;
+}
+
+void set_needs(FramePlan& plan, const Scene& scene, const CameraSettings& camera,
+               const ShaderBindings& bindings) {
+  plan.lens =
+      camera.lens.has_value() && camera.lens->focal_length > 0 && camera.lens->f_stop < 1e30;
+  plan.motion = shutter_opens(camera) && camera.camera_from_world.moves();
+  const Attributes* last = nullptr;
+  for (const Surface& surface : scene.surfaces) {
+    plan.motion = plan.motion || (shutter_opens(camera) && surface_moves(surface));
+    plan.transparency = plan.transparency || may_be_transparent(bindings, surface);
+    // Surfaces in a row mostly share their attributes.
+    if (surface.attributes.get() == last) continue;
+    last = surface.attributes.get();
+    plan.displacement = plan.displacement || last->displacement.has_value();
+    plan.textures = plan.textures || (last->surface && names_a_texture(*last->surface)) ||
+                    (last->displacement && names_a_texture(*last->displacement));
+  }
+  for (const Light& light : scene.lights) plan.area_lights = plan.area_lights || light.area;
+}
+
+}  // namespace
+
+FramePlan make_plan(const Scene& scene, const CameraSettings& camera, const Settings& settings,
+                    const ShaderBindings& bindings) {
+  FramePlan plan;
+  set_needs(plan, scene, camera, bindings);
+
+  const SceneOptions& options = scene.options;
+  // Checked as a product in long: two large counts in a scene file must not overflow.
+  const long scene_samples = long(options.x_samples) * long(options.y_samples);
+  plan.samples_per_pixel = checked(
+      "samples per pixel",
+      settings.samples_per_pixel.value_or(int(std::min(scene_samples, 1L << 30))), 1, 65536);
+  plan.bucket_size = checked(
+      "bucket size", settings.bucket_size.value_or(options.bucket_size.value_or(plan.bucket_size)),
+      1, max_bucket_size);
+  plan.grid_size =
+      checked("grid size", settings.grid_size.value_or(plan.grid_size), 1, max_grid_size);
+  if (settings.hider) plan.hider = *settings.hider;
+  if (settings.shading) plan.shading = *settings.shading;
+  plan.filter_x_width = options.filter_x_width;
+  plan.filter_y_width = options.filter_y_width;
+  set_filter(plan, settings.filter.value_or(options.filter));
+  plan.channel_groups = channel_groups_of(scene, settings);
+  return plan;
+}
+
+std::vector<std::pair<std::string, std::string>> FramePlan::entries() const {
+  const auto yes = [](bool b) { return std::string(b ? "yes" : "no"); };
+  return {{"motion", yes(motion)},
+          {"lens", yes(lens)},
+          {"transparency", yes(transparency)},
+          {"displacement", yes(displacement)},
+          {"textures", yes(textures)},
+          {"area_lights", yes(area_lights)},
+          {"ray_tracing", yes(ray_tracing)},
+          {"samples_per_pixel", std::to_string(samples_per_pixel)},
+          {"bucket_size", std::to_string(bucket_size)},
+          {"grid_size", std::to_string(grid_size)},
+          {"hider", hider},
+          {"shading", shading},
+          {"filter", fmt::format("{}:{}x{}", filter, filter_x_width, filter_y_width)},
+          {"channels", fmt::format("{}", fmt::join(channel_groups, " "))}};
+}
+
+}  // namespace tessera

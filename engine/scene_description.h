@@ -1,0 +1,14 @@
+#pragma once
+/// What a scene holds, for people.
+
+#include <string>
+
+#include "scenes/scene.h"
+
+namespace tessera {
+
+/// Lines "name  value": frame, camera, surfaces by kind with their control points, instances,
+/// lights, shaders, options, displays.
+std::string describe_scene(const Scene& scene);
+
+}  // namespace tessera

@@ -1,0 +1,156 @@
+#include "engine/settings_options.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "hide/hide.h"
+#include "reconstruct/pixel_filter.h"
+#include "shade/shade.h"
+
+namespace tessera {
+namespace {
+
+constexpr int max_samples_per_pixel = 1 << 16;
+constexpr int max_resolution = 1 << 15;
+constexpr int max_bucket_size = 4096;
+constexpr int max_grid_size = 256;
+constexpr int max_threads = 4096;
+constexpr size_t max_memory_mib = size_t(1) << 24;
+
+/// Accepts "NAME" and "NAME:arguments" of an entry of `registry`; the arguments are checked by
+/// whoever makes it.
+template <class Registry>
+CLI::Validator one_of(Registry registry, const char* kind) {
+  return CLI::Validator(
+      [registry, kind](std::string& spec) -> std::string {
+        const std::string_view name = std::string_view(spec).substr(0, spec.find(':'));
+        std::string choices;
+        for (const auto& entry : registry) {
+          if (name == entry.name) return "";
+          choices += fmt::format(" {}", entry.name);
+        }
+        return fmt::format("no {} '{}'; there is{}", kind, name, choices);
+      },
+      "NAME");
+}
+
+/// "640x480" -> both; false when it is anything else.
+bool parse_format(std::string_view text, int& width, int& height) {
+  const size_t cross = text.find('x');
+  if (cross == text.npos) return false;
+  const auto whole = [](std::string_view digits, int& value) {
+    const auto [end, error] = std::from_chars(digits.begin(), digits.end(), value);
+    return error == std::errc() && end == digits.end() && value >= 1 && value <= max_resolution;
+  };
+  return whole(text.substr(0, cross), width) && whole(text.substr(cross + 1), height);
+}
+
+/// "a,b" -> a and b.
+std::vector<std::string> split_list(std::string_view text) {
+  std::vector<std::string> items;
+  for (size_t start = 0; start <= text.size();) {
+    const size_t end = std::min(text.find(',', start), text.size());
+    items.emplace_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return items;
+}
+
+void add_raster_options(CLI::App& app, Settings& settings) {
+  app.add_option_function<std::string>(
+         "--format",
+         [&settings](const std::string& text) {
+           int width = 0, height = 0;
+           if (!parse_format(text, width, height)) {
+             throw CLI::ValidationError(
+                 "--format", fmt::format("'{}': expected WIDTHxHEIGHT, each 1 to {} pixels", text,
+                                         max_resolution));
+           }
+           settings.x_resolution = width;
+           settings.y_resolution = height;
+         },
+         "resolution in pixels")
+      ->type_name("WxH");
+  app.add_option_function<std::vector<double>>(
+         "--crop",
+         [&settings](const std::vector<double>& x) {
+           if (!(0 <= x[0] && x[0] < x[1] && x[1] <= 1 && 0 <= x[2] && x[2] < x[3] && x[3] <= 1)) {
+             throw CLI::ValidationError(
+                 "--crop", fmt::format("{} {} {} {}: expected 0 <= X0 < X1 <= 1 and the same of Y",
+                                       x[0], x[1], x[2], x[3]));
+           }
+           settings.crop = CameraSettings::CropWindow{x[0], x[1], x[2], x[3]};
+         },
+         "part of the frame to render, as fractions of it, y down")
+      ->type_name("X0 X1 Y0 Y1")
+      ->expected(4);
+}
+
+void add_choice_options(CLI::App& app, Settings& settings) {
+  app.add_option("--hider", settings.hider, "how visibility is found")
+      ->check(one_of(hider_registry(), "hider"));
+  app.add_option("--shading", settings.shading, "how shading is placed")
+      ->check(one_of(shading_mode_registry(), "shading mode"));
+  app.add_option("--filter", settings.filter, "pixel filter, with its full widths in pixels")
+      ->check(one_of(pixel_filter_registry(), "filter"))
+      ->type_name("NAME[:XxY]");
+  app.add_option_function<std::string>(
+         "--aov", [&settings](const std::string& list) { settings.aovs = split_list(list); },
+         "channels to write, separated by commas")
+      ->check([](const std::string& list) {
+        for (std::string name : split_list(list)) {
+          const std::string problem = one_of(aov_registry(), "channel")(name);
+          if (!problem.empty()) return problem;
+        }
+        return std::string();
+      })
+      ->type_name("LIST");
+}
+
+template <class Registry>
+std::string list_registry(const char* title, const Registry& registry) {
+  std::string text = fmt::format("{}:\n", title);
+  for (const auto& entry : registry) text += fmt::format("  {:<14} {}\n", entry.name, entry.help);
+  return text;
+}
+
+}  // namespace
+
+void add_settings_options(CLI::App& app, Settings& settings) {
+  app.add_option("--spp", settings.samples_per_pixel, "samples per pixel")
+      ->check(CLI::Range(1, max_samples_per_pixel))
+      ->type_name("N");
+  app.add_option("--shading-rate", settings.shading_rate,
+                 "area of a micropolygon in pixels^2, for every surface")
+      ->check(CLI::Range(1e-4f, 1e6f))
+      ->type_name("R");
+  add_raster_options(app, settings);
+  add_choice_options(app, settings);
+  app.add_option("--bucket-size", settings.bucket_size, "side of a bucket in pixels")
+      ->check(CLI::Range(1, max_bucket_size))
+      ->type_name("N");
+  app.add_option("--grid-size", settings.grid_size, "micropolygons along the side of a grid")
+      ->check(CLI::Range(1, max_grid_size))
+      ->type_name("N");
+  app.add_option("--seed", settings.seed, "of the sample patterns (0)")->type_name("N");
+  app.add_option("--threads", settings.threads, "0: every core (0)")
+      ->check(CLI::Range(0, max_threads))
+      ->type_name("N");
+  app.add_option_function<size_t>(
+         "--memory", [&settings](const size_t& mib) { settings.memory_bytes = mib << 20; },
+         fmt::format("budget for diced grids in MiB ({})", settings.memory_bytes >> 20))
+      ->check(CLI::Range(size_t(1), max_memory_mib))
+      ->type_name("MIB");
+}
+
+std::string list_choices() {
+  return "\n" + list_registry("Hiders", hider_registry()) +
+         list_registry("Shading modes", shading_mode_registry()) +
+         list_registry("Filters", pixel_filter_registry()) +
+         list_registry("Channels (--aov)", aov_registry());
+}
+
+}  // namespace tessera

@@ -1,0 +1,65 @@
+#include <catch2/catch.hpp>
+
+#include "images/exr.h"
+#include "tests/engine/program.h"
+
+using namespace tessera;
+using Catch::Matchers::Contains;
+
+namespace {
+
+// 4 x 3 pixels of 0.5, one of which is off by `error`: RMSE = error / sqrt(12).
+void write_flat(const std::string& path, float error) {
+  Image image({0, 0, 4, 3}, {0, 0, 4, 3});
+  image.add_channel("R", PixelType::float32, 0.5f).values[1 * 4 + 2] += error;
+  write_exr(path, image);
+}
+
+}  // namespace
+
+TEST_CASE("compare measures and exits past the limit") {
+  const TemporaryFolder folder;
+  write_flat(folder / "a.exr", 0.25f);
+  write_flat(folder / "b.exr", 0.0f);
+  const ProgramResult result = run_tessera({"compare", "a.exr", "b.exr"}, folder);
+  CHECK(result.exit_code == 0);
+  CHECK_THAT(result.out, Contains("RMSE     0.0721688"));
+  CHECK_THAT(result.out, Contains("largest  0.25 at pixel 2 1, channel R"));
+
+  CHECK(run_tessera({"compare", "a.exr", "b.exr", "--fail-over", "0.0722"}, folder).exit_code == 0);
+  CHECK(run_tessera({"compare", "a.exr", "b.exr", "--fail-over", "0.0721"}, folder).exit_code == 1);
+  CHECK(run_tessera({"compare", "a.exr", "a.exr", "--fail-over", "0"}, folder).exit_code == 0);
+  CHECK_THAT(run_tessera({"compare", "a.exr", "a.exr"}, folder).out, Contains("PSNR     inf"));
+}
+
+TEST_CASE("a value that cannot be compared is past every limit") {
+  const TemporaryFolder folder;
+  write_flat(folder / "a.exr", std::numeric_limits<float>::quiet_NaN());
+  write_flat(folder / "b.exr", 0.0f);
+  CHECK(run_tessera({"compare", "a.exr", "b.exr"}, folder).exit_code == 0);
+  CHECK(run_tessera({"compare", "a.exr", "b.exr", "--fail-over", "1"}, folder).exit_code == 1);
+}
+
+TEST_CASE("compare writes the differences") {
+  const TemporaryFolder folder;
+  write_flat(folder / "a.exr", -0.25f);
+  write_flat(folder / "b.exr", 0.0f);
+  REQUIRE(run_tessera({"compare", "a.exr", "b.exr", "--diff", "d.exr"}, folder).exit_code == 0);
+  REQUIRE(run_tessera({"compare", "a.exr", "b.exr", "--diff", "d.png"}, folder).exit_code == 0);
+  const Image difference = read_exr(folder / "d.exr");
+  CHECK(difference.find_channel("R")->values[6] == 0.25f);
+  CHECK(difference.find_channel("R")->values[0] == 0.0f);
+  CHECK(read_text(folder / "d.png").starts_with("\x89PNG"));
+}
+
+TEST_CASE("images that cannot be compared fail") {
+  const TemporaryFolder folder;
+  write_flat(folder / "a.exr", 0);
+  Image other({0, 0, 5, 3}, {0, 0, 5, 3});
+  other.add_channel("R");
+  write_exr(folder / "b.exr", other);
+  const ProgramResult result = run_tessera({"compare", "a.exr", "b.exr"}, folder);
+  CHECK(result.exit_code == 1);
+  CHECK_THAT(result.err, Contains("error: "));
+  CHECK(run_tessera({"compare", "a.exr", "absent.exr"}, folder).exit_code == 1);
+}
