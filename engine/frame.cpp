@@ -1,6 +1,6 @@
 #include "engine/frame.h"
 
-#include <chrono>
+#include <filesystem>
 #include <mutex>
 #include <thread>
 
@@ -25,6 +25,8 @@ ShadeSetup shade_setup(const Scene& scene, const Camera& camera, Diagnostics& di
   setup.texture_sampler = [&scene] {
     TextureSettings textures;
     textures.search_path = scene.options.texture_path;
+    // Textures mostly lie near the scene file, from wherever it is rendered.
+    textures.search_path.push_back(std::filesystem::path(scene.file).parent_path().string());
     return std::shared_ptr<TextureSampler>(load_image_module()->make_texture_sampler(textures));
   };
   return setup;

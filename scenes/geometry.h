@@ -94,8 +94,8 @@ using Shape = std::variant<SubdivisionMesh, PolygonMesh, PatchMesh, NurbsPatch, 
 /// "t" are, under these names, when the scene gives them.
 struct Geometry {
   Shape shape;
-  std::vector<float> key_times{0.0f};             ///< shutter times, ascending; one key: static
-  std::vector<std::vector<glm::vec3>> P_object;   ///< [key][control point]; empty for quadrics
+  std::vector<float> key_times{0.0f};            ///< shutter times, ascending; one key: static
+  std::vector<std::vector<glm::vec3>> P_object;  ///< [key][control point]; empty for quadrics
   std::vector<Parameter> primvars;
   SourceLocation where;
 };

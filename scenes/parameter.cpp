@@ -8,13 +8,17 @@ int component_count(ValueType type) {
   switch (type) {
     case ValueType::integer:
     case ValueType::scalar:
-    case ValueType::string: return 1;
+    case ValueType::string:
+      return 1;
     case ValueType::point:
     case ValueType::vector:
     case ValueType::normal:
-    case ValueType::color: return 3;
-    case ValueType::hpoint: return 4;
-    case ValueType::matrix: return 16;
+    case ValueType::color:
+      return 3;
+    case ValueType::hpoint:
+      return 4;
+    case ValueType::matrix:
+      return 16;
   }
   return 1;
 }

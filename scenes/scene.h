@@ -32,12 +32,12 @@ struct Attributes {
   std::vector<int> lights;
   /// Index into Scene::lights of the area light this surface is part of, if any.
   std::optional<int> area_light;
-  float shading_rate = 1.0f;       ///< area of a micropolygon, pixels^2
-  bool smooth_shading = true;      ///< ShadingInterpolation "smooth"; otherwise constant
-  bool two_sided = true;           ///< Sides 2
+  float shading_rate = 1.0f;   ///< area of a micropolygon, pixels^2
+  bool smooth_shading = true;  ///< ShadingInterpolation "smooth"; otherwise constant
+  bool two_sided = true;       ///< Sides 2
   bool matte = false;
   std::array<glm::vec2, 4> texture_coordinates{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
-  std::string name;                ///< Attribute "identifier" "name"
+  std::string name;                 ///< Attribute "identifier" "name"
   float displacement_bound = 0.0f;  ///< largest distance a point may move, world units
   float motion_factor = 0.0f, focus_factor = 0.0f;  ///< GeometricApproximation
   /// Attribute requests nobody interpreted, as "category:name" -> parameter.
@@ -70,14 +70,14 @@ struct Display {
 };
 
 struct SceneOptions {
-  std::string hider;                    ///< "" = not given
+  std::string hider;  ///< "" = not given
   std::vector<Parameter> hider_parameters;
-  int x_samples = 4, y_samples = 4;     ///< samples per pixel is their product
+  int x_samples = 4, y_samples = 4;  ///< samples per pixel is their product
   std::string filter = "gaussian";
   float filter_x_width = 2.0f, filter_y_width = 2.0f;  ///< full width, pixels
   float exposure_gain = 1.0f, exposure_gamma = 1.0f;
-  std::optional<int> bucket_size;       ///< pixels, Option "limits" "bucketsize"
-  std::optional<int> grid_size;         ///< micropolygons, Option "limits" "gridsize"
+  std::optional<int> bucket_size;  ///< pixels, Option "limits" "bucketsize"
+  std::optional<int> grid_size;    ///< micropolygons, Option "limits" "gridsize"
   std::vector<std::string> texture_path, shader_path, archive_path, procedural_path;
   /// Option requests nobody interpreted, as "category:name" -> parameter.
   std::map<std::string, Parameter> user;
