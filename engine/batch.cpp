@@ -150,7 +150,7 @@ void Batch::render(const Scene& scene, const FrameFiles& files, const std::strin
   if (files.from_displays) {
     written = write_displays(frame, scene, diagnostics);
   } else {
-    write_frame(frame, scene, files.images.front());
+    write_frame(frame, files.images.front());
   }
   if (!files.preview.empty()) {
     write_preview(frame, files.preview);

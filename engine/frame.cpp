@@ -1,9 +1,11 @@
 #include "engine/frame.h"
 
+#include <ctime>
 #include <filesystem>
 #include <mutex>
 #include <thread>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
@@ -11,6 +13,7 @@
 #include "engine/bucket_renderer.h"
 #include "engine/frame_statistics.h"
 #include "engine/overrides.h"
+#include "engine/version.h"
 #include "images/image_module.h"
 
 namespace tessera {
@@ -124,6 +127,19 @@ void render_buckets(const FrameParts& parts, int threads, BucketQueue& queue,
   });
 }
 
+void add_metadata(FrameResult& frame, const Scene& scene) {
+  std::map<std::string, std::string>& metadata = frame.image.metadata;
+  metadata["software"] = fmt::format("Tessera {}", version);
+  metadata["tessera:scene"] = scene.file;
+  metadata["tessera:frame"] = std::to_string(scene.frame_number);
+  metadata["tessera:complete"] = frame.complete ? "yes" : "no, cancelled";
+  metadata["tessera:summary"] = frame.statistics.summary();
+  for (const auto& [name, value] : frame.statistics.plan) metadata["tessera:plan:" + name] = value;
+  for (const auto& [name, value] : frame.statistics.options)
+    metadata["tessera:option:" + name] = value;
+  metadata["capDate"] = fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+}
+
 }  // namespace
 
 FrameResult render_frame(const Scene& original, const Settings& settings, Diagnostics& diagnostics,
@@ -165,6 +181,7 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   result.image.pixel_aspect = scene.camera.pixel_aspect;
   statistics.add(film->counters());
   result.statistics = statistics.finish(plan, scene, settings, threads, diagnostics);
+  add_metadata(result, scene);
   return result;
 }
 

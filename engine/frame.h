@@ -23,7 +23,9 @@ struct FrameControl {
 };
 
 struct FrameResult {
-  Image image;       ///< every channel asked for, over the crop window
+  /// Every channel asked for, over the crop window. Its metadata name the scene, the frame, the plan
+  /// and the options in force, the version and the time, and whether the frame is complete.
+  Image image;
   Statistics statistics;
   bool display_encoded = false;  ///< the scene's Exposure has a gamma: colours are not linear
   bool complete = true;  ///< false after a cancellation: missing buckets are black and transparent

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "engine/version.h"
 #include "images/exr.h"
 #include "images/image_module.h"
 #include "shade/shade.h"
@@ -75,23 +72,10 @@ std::vector<std::string> mode_channels(const Display& display) {
   return channels;
 }
 
-void add_metadata(Image& image, const FrameResult& frame, const Scene& scene) {
-  image.metadata["software"] = fmt::format("Tessera {}", version);
-  image.metadata["tessera:scene"] = scene.file;
-  image.metadata["tessera:frame"] = std::to_string(scene.frame_number);
-  image.metadata["tessera:complete"] = frame.complete ? "yes" : "no, cancelled";
-  image.metadata["tessera:summary"] = frame.statistics.summary();
-  for (const auto& [name, value] : frame.statistics.plan)
-    image.metadata["tessera:plan:" + name] = value;
-  for (const auto& [name, value] : frame.statistics.options)
-    image.metadata["tessera:option:" + name] = value;
-  image.metadata["capDate"] =
-      fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
-}
-
 Image with_channels(const Image& image, const std::vector<std::string>& names) {
   Image picked(image.display_window, image.data_window);
   picked.pixel_aspect = image.pixel_aspect;
+  picked.metadata = image.metadata;
   for (const std::string& name : names)
     if (const Image::Channel* channel = image.find_channel(name))
       picked.channels.push_back(*channel);
@@ -116,20 +100,18 @@ bool is_8_bit(const std::string& path) {
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
 }
 
-void write_image_file(Image image, const std::string& path, bool as_exr, bool display_encoded) {
-  if (as_exr) return write_exr(path, image);
+/// Writes through the image module: formats other than EXR.
+void write_other(Image image, const std::string& path, bool display_encoded) {
   if (display_encoded && is_8_bit(path)) decode_colours(image);
   load_image_module()->write_image(path, image);
 }
 
 }  // namespace
 
-void write_frame(const FrameResult& frame, const Scene& scene, const std::string& path) {
-  const bool as_exr = is_exr(path);
+void write_frame(const FrameResult& frame, const std::string& path) {
+  if (is_exr(path)) return write_exr(path, frame.image);
   // Formats other than EXR hold one picture.
-  Image image = as_exr ? frame.image : with_channels(frame.image, {"R", "G", "B", "A"});
-  add_metadata(image, frame, scene);
-  write_image_file(image, path, as_exr, frame.display_encoded);
+  write_other(with_channels(frame.image, {"R", "G", "B", "A"}), path, frame.display_encoded);
 }
 
 std::vector<std::string> display_outputs(const Scene& scene) {
@@ -152,21 +134,24 @@ std::vector<std::string> write_displays(const FrameResult& frame, const Scene& s
                                         display.mode, display.file));
       continue;
     }
-    add_metadata(image, frame, scene);
     const std::string path = display_path(display);
-    write_image_file(image, path, is_depth_file(display) || is_exr(path), frame.display_encoded);
+    if (is_depth_file(display) || is_exr(path))
+      write_exr(path, image);
+    else
+      write_other(std::move(image), path, frame.display_encoded);
     written.push_back(path);
   }
   if (written.empty()) {
     written = display_outputs(scene);
-    write_frame(frame, scene, written.front());
+    write_frame(frame, written.front());
   }
   return written;
 }
 
 void write_preview(const FrameResult& frame, const std::string& path) {
-  const Image picture = with_channels(frame.image, {"R", "G", "B"});
-  write_image_file(picture, path, is_exr(path), frame.display_encoded);
+  Image picture = with_channels(frame.image, {"R", "G", "B"});
+  if (is_exr(path)) return write_exr(path, picture);
+  write_other(std::move(picture), path, frame.display_encoded);
 }
 
 }  // namespace tessera

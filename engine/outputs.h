@@ -9,8 +9,8 @@
 namespace tessera {
 
 /// Writes every channel of the frame to `path` (EXR through a temporary name; other extensions
-/// through the image module). Metadata: scene, frame, options, statistics in brief, version, time.
-void write_frame(const FrameResult& frame, const Scene& scene, const std::string& path);
+/// through the image module).
+void write_frame(const FrameResult& frame, const std::string& path);
 
 /// The files that a frame will be written to when no output is named: those of the scene's
 /// Displays (framebuffer displays excepted), or SCENE.exr. Relative to the working directory.

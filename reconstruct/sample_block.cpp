@@ -1,21 +1,34 @@
 #include "reconstruct/sample_block.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tessera {
 namespace {
 
-/// weights[offset][sample] of `positions` along one axis, given each sample's own pixel.
+/// weights[offset][sample] along one axis, offsets from -reach to reach. `positions` and the pixels
+/// they lie in go through the samples pixel by pixel: pixel p's own coordinate is pixel_of(p).
 template <class PixelOf>
-std::vector<float> axis_weights(const std::vector<float>& positions, const FilterTable& table,
-                                PixelOf pixel_of) {
+std::vector<float> axis_weights(const std::vector<float>& positions, size_t samples_per_pixel,
+                                const FilterTable& table, PixelOf pixel_of) {
   const int reach = table.reach_pixels();
-  std::vector<float> weights;
-  weights.reserve(size_t(2 * reach + 1) * positions.size());
-  for (int offset = -reach; offset <= reach; ++offset)
-    for (size_t s = 0; s < positions.size(); ++s)
-      weights.push_back(table(positions[s] - (float(pixel_of(s) + offset) + 0.5f)));
+  std::vector<float> weights(size_t(2 * reach + 1) * positions.size());
+  float* out = weights.data();
+  for (int offset = -reach; offset <= reach; ++offset) {
+    for (size_t first = 0, p = 0; first < positions.size(); first += samples_per_pixel, ++p) {
+      const float centre = float(pixel_of(p) + offset) + 0.5f;
+      for (size_t k = 0; k < samples_per_pixel; ++k) *out++ = table(positions[first + k] - centre);
+    }
+  }
   return weights;
+}
+
+bool all_finite(const std::vector<float>& values) {
+  // Written without a branch, so that it runs at the speed of memory.
+  bool finite = true;
+  for (const float value : values) finite &= std::abs(value) <= std::numeric_limits<float>::max();
+  return finite;
 }
 
 }  // namespace
@@ -28,11 +41,12 @@ WeightedBlock::WeightedBlock(SampleValues&& values, const std::vector<const AovD
       x_reach_(x_table.reach_pixels()),
       y_reach_(y_table.reach_pixels()) {
   const size_t spp = size_t(values_.samples_per_pixel), width = size_t(rect().width());
-  x_weights_ =
-      axis_weights(values_.x, x_table, [&](size_t s) { return rect().x0 + int(s / spp % width); });
-  y_weights_ =
-      axis_weights(values_.y, y_table, [&](size_t s) { return rect().y0 + int(s / spp / width); });
-  drop_nonfinite(groups, dropped);
+  x_weights_ = axis_weights(values_.x, spp, x_table,
+                            [&](size_t p) { return rect().x0 + int(p % width); });
+  y_weights_ = axis_weights(values_.y, spp, y_table,
+                            [&](size_t p) { return rect().y0 + int(p / width); });
+  if (!std::all_of(values_.groups.begin(), values_.groups.end(), all_finite))
+    drop_nonfinite(groups, dropped);
   values_.x = {}, values_.y = {};
 }
 
