@@ -23,12 +23,12 @@ namespace tessera {
 /// (1 - b1 - b2) * A + b1 * B + b2 * C at the sample's time, with A, B, C the corners of its
 /// triangle in the order of dice/grid.h.
 struct FragmentList {
-  std::vector<uint32_t> sample;        ///< index into the SampleBlock
-  std::vector<uint32_t> grid;          ///< index into HideInput::grids
-  std::vector<uint32_t> triangle;      ///< 2 * micropolygon + (0 or 1)
-  std::vector<float> b1, b2;           ///< barycentric coordinates
-  std::vector<float> z;                ///< camera depth
-  std::vector<float> weight;           ///< share of the pixel
+  std::vector<uint32_t> sample;           ///< index into the SampleBlock
+  std::vector<uint32_t> grid;             ///< index into HideInput::grids
+  std::vector<uint32_t> triangle;         ///< 2 * micropolygon + (0 or 1)
+  std::vector<float> b1, b2;              ///< barycentric coordinates
+  std::vector<float> z;                   ///< camera depth
+  std::vector<float> weight;              ///< share of the pixel
   std::vector<uint32_t> first_of_sample;  ///< [sample]: its first fragment; one past the end last
 
   size_t size() const { return grid.size(); }
@@ -68,15 +68,14 @@ struct HideCounters {
   uint64_t micropolygons = 0, micropolygons_culled = 0, fragments = 0, nonfinite_dropped = 0;
   static constexpr auto fields() {
     using C = HideCounters;
-    return std::array{
-        CounterField<C>{"samples", &C::samples},
-        CounterField<C>{"samples_tested", &C::samples_tested},
-        CounterField<C>{"samples_covered", &C::samples_covered},
-        CounterField<C>{"tiles_visited", &C::tiles_visited},
-        CounterField<C>{"micropolygons", &C::micropolygons},
-        CounterField<C>{"micropolygons_culled", &C::micropolygons_culled},
-        CounterField<C>{"fragments", &C::fragments},
-        CounterField<C>{"nonfinite_dropped", &C::nonfinite_dropped}};
+    return std::array{CounterField<C>{"samples", &C::samples},
+                      CounterField<C>{"samples_tested", &C::samples_tested},
+                      CounterField<C>{"samples_covered", &C::samples_covered},
+                      CounterField<C>{"tiles_visited", &C::tiles_visited},
+                      CounterField<C>{"micropolygons", &C::micropolygons},
+                      CounterField<C>{"micropolygons_culled", &C::micropolygons_culled},
+                      CounterField<C>{"fragments", &C::fragments},
+                      CounterField<C>{"nonfinite_dropped", &C::nonfinite_dropped}};
   }
 };
 

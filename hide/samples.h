@@ -2,6 +2,7 @@
 /// Where a bucket looks: points (x, y, u, v, t), Owen-scrambled Sobol in all five dimensions.
 
 #include <cstdint>
+#include <vector>
 
 #include "base/aligned.h"
 #include "base/raster.h"
@@ -17,8 +18,10 @@ struct SampleBlock {
   PixelRect rect;
   int samples_per_pixel = 0;
   AlignedVector<float> x, y;  ///< raster position, pixels
-  AlignedVector<float> u, v;  ///< lens coordinates after the profile's warp; empty if the lens is closed
-  AlignedVector<float> t;     ///< shutter time in [0, 1], ascending within a pixel; empty if nothing moves
+  AlignedVector<float> u,
+      v;  ///< lens coordinates after the profile's warp; empty if the lens is closed
+  AlignedVector<float>
+      t;  ///< shutter time in [0, 1], ascending within a pixel; empty if nothing moves
 
   size_t size() const { return size_t(rect.pixel_count()) * size_t(samples_per_pixel); }
 };
@@ -36,10 +39,16 @@ class SamplePattern {
   void fill(const PixelRect& rect, SampleBlock& block) const;
 
  private:
+  void fill_pixel(int x, int y, SampleBlock& block, size_t first, struct PixelPoints& points) const;
+  void warp_lens(float* u, float* v, size_t count) const;
+
   int samples_per_pixel_;
   uint32_t seed_;
   const LensProfile* lens_;
   const ShutterProfile* shutter_;
+  int index_bits_;                 // of the smallest power of two >= samples_per_pixel
+  bool disc_lens_, box_shutter_;   // the common profiles, mapped without a virtual call a sample
+  AlignedVector<uint32_t> sobol_;  // [dimension][index], digits reversed as in sobol.h
 };
 
 }  // namespace tessera
