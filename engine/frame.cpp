@@ -40,7 +40,7 @@ DiceSettings dice_settings(const FramePlan& plan, const BucketLayout& buckets,
                            std::shared_ptr<const ShaderBindings> bindings) {
   DiceSettings dice;
   dice.max_grid_size = plan.grid_size;
-  dice.crop = buckets.crop;
+  dice.crop = buckets.sampled;
   dice.bucket_size = buckets.size;
   dice.memory_budget_bytes = settings.memory_bytes;
   dice.displacer = displacer;
@@ -56,7 +56,8 @@ std::unique_ptr<Film> make_film(const FramePlan& plan, const BucketLayout& bucke
                                 const SceneOptions& options) {
   FilmSettings film;
   film.display_window = camera.frame();
-  film.crop = buckets.crop;
+  film.crop = camera.crop();
+  film.sampled = buckets.sampled;
   film.bucket_size = buckets.size;
   film.filter = plan.filter;
   film.filter_x_width = plan.filter_x_width;
@@ -149,7 +150,9 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   const Camera camera(scene.camera);
   const auto bindings = bind_shaders(shade_setup(scene, camera, diagnostics));
   const FramePlan plan = make_plan(scene, scene.camera, settings, *bindings);
-  const BucketLayout buckets{camera.crop(), plan.bucket_size};
+  const BucketLayout buckets{
+      sampled_pixels(camera.crop(), camera.frame(), plan.filter_x_width, plan.filter_y_width),
+      plan.bucket_size};
 
   std::vector<const AovDefinition*> groups;
   for (const std::string& name : plan.channel_groups) groups.push_back(&find_aov(name));

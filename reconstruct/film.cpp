@@ -65,10 +65,10 @@ class Film::Blocks {
     std::vector<std::shared_ptr<const WeightedBlock>> blocks;
   };
 
-  int columns() const { return (crop().width() + size() - 1) / size(); }
-  int rows() const { return (crop().height() + size() - 1) / size(); }
+  int columns() const { return (sampled().width() + size() - 1) / size(); }
+  int rows() const { return (sampled().height() + size() - 1) / size(); }
   int size() const { return settings_.bucket_size; }
-  const PixelRect& crop() const { return settings_.crop; }
+  const PixelRect& sampled() const { return settings_.sampled; }
   Slot& slot(int i, int j) { return slots_[size_t(j) * size_t(columns()) + size_t(i)]; }
   PixelRect rect(int i, int j) const;
   PixelRect neighbourhood(int i, int j) const;
@@ -102,6 +102,7 @@ Film::Blocks::Blocks(const FilmSettings& settings)
       color_group_(find_group(settings.groups, "rgb")),
       image_(settings.display_window, settings.crop) {
   check_channels(settings.groups);
+  if (settings_.sampled.empty()) settings_.sampled = settings_.crop;
   for (const AovDefinition* group : settings_.groups)
     for (const std::string& channel : group->channels)
       image_.add_channel(channel, PixelType::float32, group->background);
@@ -121,8 +122,8 @@ Film::Blocks::Blocks(const FilmSettings& settings)
 }
 
 PixelRect Film::Blocks::rect(int i, int j) const {
-  const int x = crop().x0 + i * size(), y = crop().y0 + j * size();
-  return PixelRect{x, y, x + size(), y + size()}.intersect(crop());
+  const int x = sampled().x0 + i * size(), y = sampled().y0 + j * size();
+  return PixelRect{x, y, x + size(), y + size()}.intersect(sampled());
 }
 
 /// Buckets within the filter's reach of bucket (i, j), itself included, as a rectangle of buckets.
@@ -166,7 +167,7 @@ Film::Blocks::View Film::Blocks::view_of(int i, int j) {
 }
 
 void Film::Blocks::finish_bucket(int i, int j) {
-  const PixelRect pixels = rect(i, j);
+  const PixelRect pixels = rect(i, j).intersect(settings_.crop);
   {
     const View view = view_of(i, j);
     for (int y = pixels.y0; y < pixels.y1; ++y)
@@ -187,7 +188,7 @@ void Film::Blocks::finish_bucket(int i, int j) {
 void Film::Blocks::sum_pixel(int x, int y, const View& view) {
   const int x_reach = x_table_.reach_pixels(), y_reach = y_table_.reach_pixels();
   const PixelRect footprint =
-      PixelRect{x - x_reach, y - y_reach, x + x_reach + 1, y + y_reach + 1}.intersect(crop());
+      PixelRect{x - x_reach, y - y_reach, x + x_reach + 1, y + y_reach + 1}.intersect(sampled());
   double sums[max_channels / sum_channels][1 + sum_channels] = {};
   for (int qy = footprint.y0; qy < footprint.y1; ++qy) {
     for (int qx = footprint.x0; qx < footprint.x1; ++qx) {
@@ -220,8 +221,8 @@ void Film::Blocks::sum_pixel(int x, int y, const View& view) {
 }
 
 const WeightedBlock* Film::Blocks::block_of(int x, int y, const View& view) const {
-  const int column = (x - crop().x0) / size() - view.buckets.x0;
-  const int row = (y - crop().y0) / size() - view.buckets.y0;
+  const int column = (x - sampled().x0) / size() - view.buckets.x0;
+  const int row = (y - sampled().y0) / size() - view.buckets.y0;
   return view.blocks[size_t(row) * size_t(view.buckets.width()) + size_t(column)].get();
 }
 
@@ -263,6 +264,13 @@ FilmCounters Film::Blocks::counters() const {
 int Film::Blocks::peak_blocks() const {
   std::lock_guard lock(mutex_);
   return peak_blocks_;
+}
+
+PixelRect sampled_pixels(const PixelRect& crop, const PixelRect& frame, float filter_x_width,
+                         float filter_y_width) {
+  const int x = FilterTable::reach_pixels(checked_width("x", filter_x_width));
+  const int y = FilterTable::reach_pixels(checked_width("y", filter_y_width));
+  return PixelRect{crop.x0 - x, crop.y0 - y, crop.x1 + x, crop.y1 + y}.intersect(frame);
 }
 
 Film::Film(const FilmSettings& settings) : blocks_(std::make_unique<Blocks>(settings)) {}

@@ -32,7 +32,8 @@ class FilterTable {
 
   /// Pixels to either side whose samples can reach a pixel's centre: a sample of pixel q lies
   /// within half a pixel of q's centre.
-  int reach_pixels() const { return int(std::ceil(half_width_ + 0.5f)) - 1; }
+  static int reach_pixels(float full_width) { return int(std::ceil(0.5f * full_width + 0.5f)) - 1; }
+  int reach_pixels() const { return reach_pixels(2.0f * half_width_); }
 
  private:
   static constexpr int intervals = 4096;

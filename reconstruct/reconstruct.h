@@ -26,8 +26,9 @@ struct SampleValues {
 
 struct FilmSettings {
   PixelRect display_window;  ///< the whole frame
-  PixelRect crop;            ///< the pixels rendered
-  int bucket_size = 32;      ///< bucket (i, j) starts at crop.x0 + i * bucket_size, ...
+  PixelRect crop;            ///< the pixels wanted
+  PixelRect sampled;         ///< the pixels that buckets bring; empty: those of `crop`
+  int bucket_size = 32;      ///< bucket (i, j) starts at sampled.x0 + i * bucket_size, ...
   std::string filter = "gaussian";
   float filter_x_width = 2, filter_y_width = 2;  ///< full widths, pixels
   /// The channel groups that samples carry. One of them must be "z" if any is `closest`: the
@@ -44,6 +45,11 @@ struct FilmCounters {
                       CounterField<C>{"nonfinite_samples_dropped", &C::nonfinite_samples_dropped}};
   }
 };
+
+/// The pixels whose samples a filter of these full widths needs for the pixels of `crop`, within the
+/// frame: rendered with them, a crop has the pixels of the whole frame.
+PixelRect sampled_pixels(const PixelRect& crop, const PixelRect& frame, float filter_x_width,
+                         float filter_y_width);
 
 /// Turns samples into pixels. A bucket's samples are kept until all buckets within the filter's
 /// reach have arrived, then its pixels are finished by the thread that brought the last of them.
