@@ -19,9 +19,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(tessera_flags INTERFACE -Wno-array-bounds -Wno-stringop-overflow
                          -Wno-alloc-size-larger-than -Wno-stringop-overread)
 endif()
-# Fewer SIMD targets to compile: AVX-512 (AVX3), AVX2 and the SSE4 and SSE2 baselines remain.
+# Fewer SIMD targets to compile: AVX-512 (AVX3), AVX2 and the SSE4 and SSE2 baselines remain, and
+# under sanitizers, where kernels compile slowly, AVX2 and the baseline.
+set(TESSERA_DISABLED_TARGETS "HWY_AVX3_DL|HWY_SSSE3")
+if(TESSERA_SANITIZE)
+  string(APPEND TESSERA_DISABLED_TARGETS "|HWY_AVX3|HWY_SSE4")
+endif()
 target_compile_definitions(tessera_flags INTERFACE
-  "HWY_DISABLED_TARGETS=(HWY_AVX3_DL|HWY_SSSE3)" GLM_ENABLE_EXPERIMENTAL GLM_FORCE_XYZW_ONLY)
+  "HWY_DISABLED_TARGETS=(${TESSERA_DISABLED_TARGETS})" GLM_ENABLE_EXPERIMENTAL GLM_FORCE_XYZW_ONLY)
 if(TESSERA_SANITIZE)
   target_compile_options(tessera_flags INTERFACE -fsanitize=${TESSERA_SANITIZE} -fno-omit-frame-pointer
                          -fno-sanitize-recover=all)

@@ -77,7 +77,9 @@ class Film::Blocks {
 
   View view_of(int i, int j);
   void finish_bucket(int i, int j);
-  void sum_pixel(int x, int y, const View& view);
+  void sum_pixel(int x, int y, const View& view, std::vector<PixelSamples>& pixels);
+  void gather_footprint(int x, int y, size_t batch, const View& view,
+                        std::vector<PixelSamples>& pixels) const;
   const WeightedBlock* block_of(int x, int y, const View& view) const;
   void take_closest(int x, int y, const WeightedBlock& block);
   float exposed(float value) const;
@@ -89,7 +91,8 @@ class Film::Blocks {
   std::vector<Filtered> filtered_;
   std::vector<std::vector<float*>> planes_;  ///< [group][channel] of image_
   std::vector<Slot> slots_;
-  mutable std::mutex mutex_;  ///< guards slots_ and what follows
+  mutable std::mutex mutex_;      ///< guards slots_ and what follows
+  size_t samples_per_pixel_ = 0;  ///< the same in every bucket
   FilmCounters counters_;
   int held_blocks_ = 0, peak_blocks_ = 0;
 };
@@ -143,6 +146,7 @@ void Film::Blocks::for_neighbours(int i, int j, Visit visit) {
 
 void Film::Blocks::add(int i, int j, SampleValues&& values) {
   uint64_t dropped = 0;
+  const size_t samples_per_pixel = size_t(values.samples_per_pixel);
   auto block = std::make_shared<const WeightedBlock>(std::move(values), settings_.groups, x_table_,
                                                      y_table_, dropped);
   std::vector<std::pair<int, int>> ready;
@@ -150,6 +154,7 @@ void Film::Blocks::add(int i, int j, SampleValues&& values) {
     std::lock_guard lock(mutex_);
     slot(i, j).block = std::move(block);
     slot(i, j).arrived = true;
+    samples_per_pixel_ = samples_per_pixel;
     counters_.nonfinite_samples_dropped += dropped;
     peak_blocks_ = std::max(peak_blocks_, ++held_blocks_);
     for_neighbours(i, j, [&](int a, int b) {
@@ -170,8 +175,9 @@ void Film::Blocks::finish_bucket(int i, int j) {
   const PixelRect pixels = rect(i, j).intersect(settings_.crop);
   {
     const View view = view_of(i, j);
+    std::vector<PixelSamples> footprint;
     for (int y = pixels.y0; y < pixels.y1; ++y)
-      for (int x = pixels.x0; x < pixels.x1; ++x) sum_pixel(x, y, view);
+      for (int x = pixels.x0; x < pixels.x1; ++x) sum_pixel(x, y, view, footprint);
   }
   std::lock_guard lock(mutex_);
   slot(i, j).finished = true;
@@ -183,40 +189,45 @@ void Film::Blocks::finish_bucket(int i, int j) {
   });
 }
 
-/// Sums the footprint of pixel (x, y): pixels in raster order, in double, so that neither cutting
-/// the frame into buckets nor values of 1e30 change or overflow it.
-void Film::Blocks::sum_pixel(int x, int y, const View& view) {
+/// The pixels in the footprint of (x, y) that have samples, in raster order, with the channels of
+/// a batch. The last batch repeats its first channel, and the repeats go nowhere.
+void Film::Blocks::gather_footprint(int x, int y, size_t batch, const View& view,
+                                    std::vector<PixelSamples>& pixels) const {
   const int x_reach = x_table_.reach_pixels(), y_reach = y_table_.reach_pixels();
   const PixelRect footprint =
       PixelRect{x - x_reach, y - y_reach, x + x_reach + 1, y + y_reach + 1}.intersect(sampled());
-  double sums[max_channels / sum_channels][1 + sum_channels] = {};
+  pixels.clear();
   for (int qy = footprint.y0; qy < footprint.y1; ++qy) {
     for (int qx = footprint.x0; qx < footprint.x1; ++qx) {
       const WeightedBlock* block = block_of(qx, qy, view);
       if (!block) continue;
-      const size_t first = block->first_sample(qx, qy), count = size_t(block->samples_per_pixel());
-      const float* wx = block->x_weights(x - qx) + first;
-      const float* wy = block->y_weights(y - qy) + first;
-      for (size_t batch = 0; batch * sum_channels < filtered_.size(); ++batch) {
-        const float* channels[sum_channels];
-        // The last batch repeats its first channel, and the repeats go nowhere.
-        for (size_t c = 0; c < sum_channels; ++c) {
-          const size_t k = batch * sum_channels + c;
-          const Filtered& f = filtered_[k < filtered_.size() ? k : batch * sum_channels];
-          channels[c] = block->channel(f.group, f.channel) + first;
-        }
-        add_weighted_sums(wx, wy, channels, count, sums[batch]);
+      const size_t first = block->first_sample(qx, qy);
+      PixelSamples& pixel = pixels.emplace_back();
+      pixel.wx = block->x_weights(x - qx) + first;
+      pixel.wy = block->y_weights(y - qy) + first;
+      for (size_t c = 0; c < sum_channels; ++c) {
+        const size_t k = batch * sum_channels + c;
+        const Filtered& f = filtered_[k < filtered_.size() ? k : batch * sum_channels];
+        pixel.channels[c] = block->channel(f.group, f.channel) + first;
       }
-      if (qx == x && qy == y) take_closest(x, y, *block);
     }
   }
-  const double weight_sum = sums[0][0];
-  if (std::abs(weight_sum) < 1e-20) return;
-  const size_t pixel = image_.index(x, y);
-  for (size_t k = 0; k < filtered_.size(); ++k) {
-    const float value = float(sums[k / sum_channels][1 + k % sum_channels] / weight_sum);
-    const Filtered& f = filtered_[k];
-    planes_[f.group][f.channel][pixel] = int(f.group) == color_group_ ? exposed(value) : value;
+}
+
+void Film::Blocks::sum_pixel(int x, int y, const View& view, std::vector<PixelSamples>& pixels) {
+  const WeightedBlock* own = block_of(x, y, view);
+  if (own) take_closest(x, y, *own);
+  const size_t at = image_.index(x, y);
+  for (size_t first = 0; first < filtered_.size(); first += sum_channels) {
+    gather_footprint(x, y, first / sum_channels, view, pixels);
+    double sums[1 + sum_channels];
+    sum_footprint(pixels.data(), pixels.size(), samples_per_pixel_, sums);
+    if (std::abs(sums[0]) < 1e-20) return;
+    for (size_t k = first; k < std::min(first + sum_channels, filtered_.size()); ++k) {
+      const float value = float(sums[1 + k - first] / sums[0]);
+      const Filtered& f = filtered_[k];
+      planes_[f.group][f.channel][at] = int(f.group) == color_group_ ? exposed(value) : value;
+    }
   }
 }
 

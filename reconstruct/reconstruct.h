@@ -1,8 +1,8 @@
 #pragma once
 /// Stage header: reconstruct. The composited samples of each bucket go in, in any order and from
-/// any thread; pixels come out. A pixel sums its footprint pixel by pixel in raster order, and
-/// within a pixel sample by sample, so the image does not depend on the bucket size, the order of
-/// buckets or the number of threads.
+/// any thread; pixels come out. A pixel sums its footprint in one order, pixels in raster order and
+/// samples by index, so the image does not depend on the bucket size, the order of buckets or the
+/// number of threads.
 
 #include <memory>
 #include <string>
@@ -18,8 +18,8 @@ namespace tessera {
 /// What a bucket's samples came to. Sample indices are those of SampleBlock.
 struct SampleValues {
   PixelRect rect;
-  int samples_per_pixel = 0;
-  std::vector<float> x, y;  ///< raster position, pixels
+  int samples_per_pixel = 0;  ///< the same in every bucket of a frame
+  std::vector<float> x, y;    ///< raster position, pixels
   /// [group][channel * samples + sample], groups as in FilmSettings.
   std::vector<std::vector<float>> groups;
 };
@@ -46,8 +46,8 @@ struct FilmCounters {
   }
 };
 
-/// The pixels whose samples a filter of these full widths needs for the pixels of `crop`, within the
-/// frame: rendered with them, a crop has the pixels of the whole frame.
+/// The pixels whose samples a filter of these full widths needs for the pixels of `crop`, within
+/// the frame: rendered with them, a crop has the pixels of the whole frame.
 PixelRect sampled_pixels(const PixelRect& crop, const PixelRect& frame, float filter_x_width,
                          float filter_y_width);
 

@@ -41,10 +41,10 @@ WeightedBlock::WeightedBlock(SampleValues&& values, const std::vector<const AovD
       x_reach_(x_table.reach_pixels()),
       y_reach_(y_table.reach_pixels()) {
   const size_t spp = size_t(values_.samples_per_pixel), width = size_t(rect().width());
-  x_weights_ = axis_weights(values_.x, spp, x_table,
-                            [&](size_t p) { return rect().x0 + int(p % width); });
-  y_weights_ = axis_weights(values_.y, spp, y_table,
-                            [&](size_t p) { return rect().y0 + int(p / width); });
+  x_weights_ =
+      axis_weights(values_.x, spp, x_table, [&](size_t p) { return rect().x0 + int(p % width); });
+  y_weights_ =
+      axis_weights(values_.y, spp, y_table, [&](size_t p) { return rect().y0 + int(p / width); });
   if (!std::all_of(values_.groups.begin(), values_.groups.end(), all_finite))
     drop_nonfinite(groups, dropped);
   values_.x = {}, values_.y = {};

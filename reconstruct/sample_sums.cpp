@@ -17,8 +17,8 @@ inline double tree_sum(const float* partial) {
                 ((partial[1] + partial[5]) + (partial[3] + partial[7])));
 }
 
-void add_weighted_sums_simd(const float* wx, const float* wy, const float* const* channels,
-                            size_t count, double* sums) {
+void sum_footprint_simd(const PixelSamples* pixels, size_t pixel_count, size_t count,
+                        double* sums) {
   const hn::CappedTag<float, logical_lanes> d;
   constexpr size_t lanes = hn::MaxLanes(d);
   constexpr size_t parts = logical_lanes / lanes;
@@ -26,26 +26,32 @@ void add_weighted_sums_simd(const float* wx, const float* wy, const float* const
   V totals[1 + sum_channels][parts];
   for (auto& total : totals)
     for (V& part : total) part = hn::Zero(d);
+  float rest[1 + sum_channels][logical_lanes] = {};  // of samples beyond the last whole eight
 
-  size_t k = 0;
-  for (; k + logical_lanes <= count; k += logical_lanes) {
-    for (size_t p = 0; p < parts; ++p) {
-      const size_t at = k + p * lanes;
-      const V weight = hn::Mul(hn::LoadU(d, wx + at), hn::LoadU(d, wy + at));
-      totals[0][p] = hn::Add(totals[0][p], weight);
+  const size_t whole = count - count % logical_lanes;
+  for (size_t q = 0; q < pixel_count; ++q) {
+    const PixelSamples& pixel = pixels[q];
+    for (size_t k = 0; k < whole; k += logical_lanes) {
+      for (size_t p = 0; p < parts; ++p) {
+        const size_t at = k + p * lanes;
+        const V weight = hn::Mul(hn::LoadU(d, pixel.wx + at), hn::LoadU(d, pixel.wy + at));
+        totals[0][p] = hn::Add(totals[0][p], weight);
+        for (size_t c = 0; c < sum_channels; ++c)
+          totals[1 + c][p] =
+              hn::Add(totals[1 + c][p], hn::Mul(weight, hn::LoadU(d, pixel.channels[c] + at)));
+      }
+    }
+    for (size_t k = whole; k < count; ++k) {
+      const float weight = pixel.wx[k] * pixel.wy[k];
+      rest[0][k - whole] += weight;
       for (size_t c = 0; c < sum_channels; ++c)
-        totals[1 + c][p] =
-            hn::Add(totals[1 + c][p], hn::Mul(weight, hn::LoadU(d, channels[c] + at)));
+        rest[1 + c][k - whole] += weight * pixel.channels[c][k];
     }
   }
   for (size_t c = 0; c < 1 + sum_channels; ++c) {
     float partial[logical_lanes];
     for (size_t p = 0; p < parts; ++p) hn::StoreU(totals[c][p], d, partial + p * lanes);
-    for (size_t rest = k; rest < count; ++rest) {
-      const float weight = wx[rest] * wy[rest];
-      partial[rest - k] += c == 0 ? weight : weight * channels[c - 1][rest];
-    }
-    sums[c] += tree_sum(partial);
+    sums[c] = tree_sum(partial) + tree_sum(rest[c]);
   }
 }
 
@@ -56,11 +62,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace tessera {
 
-HWY_EXPORT(add_weighted_sums_simd);
+HWY_EXPORT(sum_footprint_simd);
 
-void add_weighted_sums(const float* wx, const float* wy, const float* const* channels, size_t count,
-                       double* sums) {
-  HWY_DYNAMIC_DISPATCH(add_weighted_sums_simd)(wx, wy, channels, count, sums);
+void sum_footprint(const PixelSamples* pixels, size_t pixel_count, size_t count, double* sums) {
+  HWY_DYNAMIC_DISPATCH(sum_footprint_simd)(pixels, pixel_count, count, sums);
 }
 
 }  // namespace tessera

@@ -8,10 +8,17 @@ namespace tessera {
 /// Channels summed at once: their accumulators and the weights stay in registers.
 inline constexpr size_t sum_channels = 4;
 
-/// For k < count and c < sum_channels: sums[0] += sum wx[k] * wy[k], sums[1 + c] += sum of
-/// (wx[k] * wy[k]) * channels[c][k]. Eight partial sums, lane k mod 8, are added up in a fixed
-/// tree, whatever the vector width: every target and every bucket size gives the same bits.
-void add_weighted_sums(const float* wx, const float* wy, const float* const* channels, size_t count,
-                       double* sums);
+/// The samples of one pixel of a footprint: filter weights towards the pixel that is summed, and
+/// values.
+struct PixelSamples {
+  const float *wx, *wy;
+  const float* channels[sum_channels];
+};
+
+/// sums[0] = sum of wx[k] * wy[k], sums[1 + c] = sum of (wx[k] * wy[k]) * channels[c][k], over k <
+/// `count` of each of the `pixel_count` pixels. Sample k of every pixel adds to partial sum k mod
+/// 8, pixels in the order given; a fixed tree adds up the eight, whatever the vector width. So
+/// every target and every bucket size gives the same bits.
+void sum_footprint(const PixelSamples* pixels, size_t pixel_count, size_t count, double* sums);
 
 }  // namespace tessera
