@@ -128,7 +128,6 @@ endfunction()
 
 # tests/STAGE/*.cpp become one Catch2 program per stage, tests/main.cpp compiled once for all.
 function(tessera_tests)
-  enable_testing()
   find_package(Catch2 2 REQUIRED)
   include(Catch)
   if(NOT EXISTS ${CMAKE_SOURCE_DIR}/tests/main.cpp)
