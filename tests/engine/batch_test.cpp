@@ -64,7 +64,7 @@ TEST_CASE("a file of one frame keeps the name as it is given") {
   CHECK(folder.files() == Names{"a.exr", "s.rib"});
 }
 
-TEST_CASE("--frames selects among the frames of a file") {
+TEST_CASE("option --frames selects among the frames of a file") {
   const TemporaryFolder folder;
   folder.write("s.rib", frames_file(1, 4));
   REQUIRE(
@@ -77,7 +77,7 @@ TEST_CASE("--frames selects among the frames of a file") {
   CHECK_THAT(none.err, Contains("none of its 4 frames is among --frames"));
 }
 
-TEST_CASE("numbered files render in turn; a failing one does not stop the rest") {
+TEST_CASE("numbered files render in turn, and a failing one does not stop the rest") {
   const TemporaryFolder folder;
   for (int n : {1, 2, 4}) folder.write(fmt::format("shot.{:04}.rib", n), sphere_scene());
   folder.write("shot.0003.rib", "WorldBegin\nSphere 1 nonsense\nWorldEnd\n");
@@ -131,7 +131,7 @@ TEST_CASE("several files go to numbered images or into a folder") {
   CHECK(read_text(folder / "x.0001.exr").size() > 0);
 }
 
-TEST_CASE("--skip-existing renders what is missing, broken or interrupted, and nothing else") {
+TEST_CASE("option --skip-existing renders what is missing, broken or interrupted, and nothing else") {
   const TemporaryFolder folder;
   for (int n = 1; n <= 4; ++n) folder.write(fmt::format("s.{}.rib", n), sphere_scene());
   const std::vector<std::string> arguments{"render", "s.#.rib", "--frames",       "1-4",
@@ -155,7 +155,7 @@ TEST_CASE("--skip-existing renders what is missing, broken or interrupted, and n
   CHECK_THAT(run_tessera(arguments, folder).out, Contains("0 rendered, 4 skipped, 0 failed"));
 }
 
-TEST_CASE("--skip-existing looks at the images that Displays name") {
+TEST_CASE("option --skip-existing looks at the images that Displays name") {
   const TemporaryFolder folder;
   folder.write("s.rib", "Display \"x.exr\" \"file\" \"rgba\"\n" + sphere_scene());
   REQUIRE(run_tessera({"render", "s.rib", "--skip-existing"}, folder).exit_code == 0);

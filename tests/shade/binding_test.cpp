@@ -25,7 +25,7 @@ TEST_CASE("every registered shader and light can be found and explains itself") 
   for (const LightDefinition& light : light_registry()) CHECK(find_light(light.name) == &light);
 }
 
-TEST_CASE("instance values replace defaults; strangers and misfits are reported once and ignored") {
+TEST_CASE("instance values replace defaults, and strangers and misfits are reported once and ignored") {
   TestScene test;
   const Surface& surface = test.add_surface(
       "plastic", {number("Kd", 0.25f), number("Kz", 3.0f),
@@ -56,7 +56,7 @@ TEST_CASE("unknown surface shaders warn once with their place and use the defaul
              Catch::StartsWith("scene.rib:7:") && Catch::Contains("wobblywood"));
 }
 
-TEST_CASE("unknown displacements are skipped; a surface name is no displacement") {
+TEST_CASE("unknown displacements are skipped, and a surface name is no displacement") {
   TestScene test;
   Attributes attributes;
   attributes.displacement = call("plastic");

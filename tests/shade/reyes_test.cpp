@@ -27,7 +27,7 @@ TestBucket make_bucket(std::vector<std::shared_ptr<const Grid>> grids, int sampl
 
 }  // namespace
 
-TEST_CASE("unknown shading modes list the choices; reyes takes no arguments") {
+TEST_CASE("unknown shading modes list the choices, and reyes takes no arguments") {
   TestScene test;
   const auto bindings = test.bind();
   CHECK_THROWS_WITH(make_shading("rays", bindings), Catch::Contains("reyes"));
