@@ -14,15 +14,14 @@ size_t Grid::memory_bytes() const {
   return sizeof(Grid) + floats * sizeof(float) + primvars.capacity() * sizeof(GridPrimvar);
 }
 
-void GridBuilder::fill_attributes(const Piece& piece, Grid& grid) {
-  const size_t count = size_t(grid.vertex_count()), stride = grid.stride();
-  const std::span<const float> u{vertex_u_.data(), count}, v{vertex_v_.data(), count};
+void GridBuilder::fill_attributes(uint32_t patch, std::span<const float> u,
+                                  std::span<const float> v, Grid& grid) {
+  const size_t stride = grid.stride();
   grid.uv.resize(2 * stride);
   grid.st.resize(2 * stride);
-  fill_uv(piece.patch, u, v, grid.uv.data(), stride);
-  fill_st(piece.patch, u, v, grid.uv.data(), grid.st.data(), stride);
-  for (const PatchPrimvar& primvar :
-       context_.patches->primvars(piece.patch, context_.wants_primvar)) {
+  fill_uv(patch, u, v, grid.uv.data(), stride);
+  fill_st(patch, u, v, grid.uv.data(), grid.st.data(), stride);
+  for (const PatchPrimvar& primvar : context_.patches->primvars(patch, context_.wants_primvar)) {
     GridPrimvar out;
     out.source = primvar.source;
     out.components = primvar.components;

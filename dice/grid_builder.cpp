@@ -60,9 +60,10 @@ std::unique_ptr<Grid> GridBuilder::build(const Piece& piece) {
                          grid->N_camera.data() + 2 * stride};
     make_unit_normals(*grid, N, grid->normal_sign);
   }
-  fill_attributes(piece, *grid);
+  const size_t count = size_t(grid->vertex_count());
+  fill_attributes(piece.patch, {vertex_u_.data(), count}, {vertex_v_.data(), count}, *grid);
   if (context_.displacer) {
-    displace(*grid);
+    displace(piece.patch, *grid);
   } else {
     apply_vertex_normals(piece.patch, *grid);
   }

@@ -28,6 +28,12 @@ class GridBuilder {
     Location location;
   };
 
+  /// Unit normals at one place of a patch; zero where it has no two directions.
+  struct StencilNormals {
+    glm::dvec3 surface{0};    ///< before displacement, of the patch's own geometry; no sign applied
+    glm::dvec3 displaced{0};  ///< outward
+  };
+
   void lay_out(const Piece& piece, Grid& grid);
   void evaluate_interior(const Piece& piece, Grid& grid);
   /// Moves the vertices along one side onto the vertices of its edge.
@@ -35,7 +41,9 @@ class GridBuilder {
   /// Own parameters of the edge's vertices [begin, end].
   void gather_edge_parameters(const Piece& piece, int side);
   void evaluate_location(const Location& location, int key, float* const P[3], size_t at);
-  void fill_attributes(const Piece& piece, Grid& grid);
+  /// Texture coordinates and primitive variables at the points (u, v) of a patch, one a vertex.
+  void fill_attributes(uint32_t patch, std::span<const float> u, std::span<const float> v,
+                       Grid& grid);
   /// Surface parameters, and texture coordinates, of the points (u, v) of a patch.
   void fill_uv(uint32_t patch, std::span<const float> u, std::span<const float> v, float* uv,
                size_t stride);
@@ -44,9 +52,18 @@ class GridBuilder {
   void apply_vertex_normals(uint32_t patch, Grid& grid);
   bool set_bounds(Grid& grid) const;
 
-  void displace(Grid& grid);
+  void displace(uint32_t patch, Grid& grid);
+  /// What the displacer says, within the bound. One a vertex, grid.stride() long.
+  AlignedVector<float> distances(const Grid& grid);
   void share_boundary_attributes(Grid& grid);
   void boundary_normals(Grid& grid, std::vector<AlignedVector<float>>& normals);
+  /// Replaces the normals of a displaced grid's boundary by those that its neighbours find too.
+  void displaced_boundary_normals(uint32_t own_patch, Grid& grid);
+  std::vector<StencilNormals> stencil_normals(uint32_t patch, std::span<const glm::dvec2> places,
+                                              float normal_sign);
+  /// Parameters, five a place, to take derivatives from. Returns StencilNormals::surface.
+  std::vector<glm::dvec3> place_stencils(const Patch& patch, std::span<const glm::dvec2> places,
+                                         AlignedVector<float>& u, AlignedVector<float>& v) const;
 
   const SurfaceContext& context_;
   PatchCache& cache_;

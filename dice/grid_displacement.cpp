@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-void GridBuilder::displace(Grid& grid) {
+void GridBuilder::displace(uint32_t patch, Grid& grid) {
   const size_t stride = grid.stride();
   // Along the boundary, displacement must see what its neighbours see: the normals, texture
   // coordinates and variables of the patch that the edge belongs to. Shading afterwards wants the
@@ -21,7 +21,26 @@ void GridBuilder::displace(Grid& grid) {
   std::copy_n(key_normals_[0].data(), 3 * stride, grid.N_camera.data());
   share_boundary_attributes(grid);
 
-  AlignedVector<float> distance(stride, 0.0f);
+  const AlignedVector<float> distance = distances(grid);
+  for (int key = 0; key < grid.key_count(); ++key) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const float* N = key_normals_[size_t(key)].data() + size_t(axis) * stride;
+      float* P = grid.P(key, axis);
+      for (int k = 0; k < grid.vertex_count(); ++k) P[k] += distance[size_t(k)] * N[k];
+    }
+  }
+  grid.uv = own_uv;
+  grid.st = own_st;
+  for (size_t p = 0; p < own_primvars.size(); ++p) grid.primvars[p].values = own_primvars[p];
+  float* const N[3] = {grid.N_camera.data(), grid.N_camera.data() + stride,
+                       grid.N_camera.data() + 2 * stride};
+  normals_from_positions(grid, 0, N);
+  make_unit_normals(grid, N, grid.normal_sign);
+  displaced_boundary_normals(patch, grid);
+}
+
+AlignedVector<float> GridBuilder::distances(const Grid& grid) {
+  AlignedVector<float> distance(grid.stride(), 0.0f);
   context_.displacer->displace(grid, distance);
   const float bound = context_.displacement_bound;
   float largest = 0;
@@ -38,20 +57,7 @@ void GridBuilder::displace(Grid& grid) {
                     "it is cut there. Raise Attribute \"displacementbound\"",
                     largest, bound));
   }
-  for (int key = 0; key < grid.key_count(); ++key) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const float* N = key_normals_[size_t(key)].data() + size_t(axis) * stride;
-      float* P = grid.P(key, axis);
-      for (int k = 0; k < grid.vertex_count(); ++k) P[k] += distance[size_t(k)] * N[k];
-    }
-  }
-  grid.uv = own_uv;
-  grid.st = own_st;
-  for (size_t p = 0; p < own_primvars.size(); ++p) grid.primvars[p].values = own_primvars[p];
-  float* const N[3] = {grid.N_camera.data(), grid.N_camera.data() + stride,
-                       grid.N_camera.data() + 2 * stride};
-  normals_from_positions(grid, 0, N);
-  make_unit_normals(grid, N, grid.normal_sign);
+  return distance;
 }
 
 void GridBuilder::boundary_normals(Grid& grid, std::vector<AlignedVector<float>>& normals) {
