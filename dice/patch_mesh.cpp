@@ -75,11 +75,8 @@ class PatchMeshPatchSet final : public PatchSet {
   }
 
   std::vector<PatchPrimvar> primvars(uint32_t index, const PrimvarFilter& wants) const override {
-    std::vector<PatchPrimvar> found;
-    for (const Parameter& p : surface_.geometry->primvars) {
-      if (is_numeric_primvar(p) && wants(p.name)) found.push_back(primvar(p, index));
-    }
-    return found;
+    return wanted_primvars(surface_.geometry->primvars, wants,
+                           [&](const Parameter& p) { return primvar(p, index); });
   }
 
  private:

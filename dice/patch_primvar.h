@@ -36,4 +36,14 @@ PatchPrimvar bilinear_primvar(const Parameter& source, const size_t (&corner_ind
 /// Whether a parameter can be diced at all: numeric, and with the values a primvar needs.
 bool is_numeric_primvar(const Parameter& parameter);
 
+/// make(parameter) for each of `primvars` that can be diced and is wanted.
+template <class Make>
+std::vector<PatchPrimvar> wanted_primvars(const std::vector<Parameter>& primvars,
+                                          const PrimvarFilter& wants, Make make) {
+  std::vector<PatchPrimvar> found;
+  for (const Parameter& p : primvars)
+    if (is_numeric_primvar(p) && wants(p.name)) found.push_back(make(p));
+  return found;
+}
+
 }  // namespace tessera

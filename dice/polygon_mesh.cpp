@@ -73,23 +73,15 @@ class PolygonPatchSet final : public PatchSet {
   }
 
   std::vector<PatchPrimvar> primvars(uint32_t index, const PrimvarFilter& wants) const override {
-    std::vector<PatchPrimvar> found;
     const PolygonTopology::Piece& piece = topology_->pieces[index];
-    for (const Parameter& p : geometry_.primvars) {
-      if (!is_numeric_primvar(p) || !wants(p.name)) continue;
-      if (p.storage == StorageClass::constant) {
-        found.push_back(constant_primvar(p, 0));
-      } else if (p.storage == StorageClass::uniform) {
-        found.push_back(constant_primvar(p, size_t(piece.polygon)));
-      } else {
-        const bool by_corner = p.storage == StorageClass::facevarying;
-        size_t at[4];
-        for (size_t c = 0; c < 4; ++c)
-          at[c] = size_t(by_corner ? piece.corner[c] : vertex(index, c));
-        found.push_back(bilinear_primvar(p, at));
-      }
-    }
-    return found;
+    return wanted_primvars(geometry_.primvars, wants, [&](const Parameter& p) {
+      if (p.storage == StorageClass::constant) return constant_primvar(p, 0);
+      if (p.storage == StorageClass::uniform) return constant_primvar(p, size_t(piece.polygon));
+      const bool by_corner = p.storage == StorageClass::facevarying;
+      size_t at[4];
+      for (size_t c = 0; c < 4; ++c) at[c] = size_t(by_corner ? piece.corner[c] : vertex(index, c));
+      return bilinear_primvar(p, at);
+    });
   }
 
   SharedSide shared_side(uint32_t index, int side) const override {

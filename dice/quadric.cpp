@@ -236,13 +236,9 @@ class QuadricPatchSet final : public PatchSet {
     return array_.shared_corner(patch, corner);
   }
   std::vector<PatchPrimvar> primvars(uint32_t, const PrimvarFilter& wants) const override {
-    std::vector<PatchPrimvar> found;
-    for (const Parameter& p : surface_.geometry->primvars) {
-      if (!is_numeric_primvar(p) || !wants(p.name)) continue;
-      found.push_back(p.value_count() >= 4 ? bilinear_primvar(p, {0, 1, 2, 3})
-                                           : constant_primvar(p, 0));
-    }
-    return found;
+    return wanted_primvars(surface_.geometry->primvars, wants, [](const Parameter& p) {
+      return p.value_count() >= 4 ? bilinear_primvar(p, {0, 1, 2, 3}) : constant_primvar(p, 0);
+    });
   }
 
  private:

@@ -72,6 +72,8 @@ class SceneBuilder : public SceneCalls {
   bool inside(BlockKind kind) const;
   int current_handedness() const;
   void concat(const glm::dmat4& matrix, const SourceLocation& where);
+  /// The matrix with its last row normalised, or nothing, with a warning, if it is projective.
+  std::optional<glm::dmat4> affine_part(const glm::dmat4& matrix, const SourceLocation& where);
   void set(const glm::dmat4& matrix, const SourceLocation& where);
   void perspective(double fov_degrees, const SourceLocation& where);
   void use_space(const std::string& name, const SourceLocation& where);

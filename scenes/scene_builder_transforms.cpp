@@ -34,30 +34,30 @@ void SceneBuilder::transform(const TransformCall& call, const SourceLocation& wh
   }
 }
 
+std::optional<glm::dmat4> SceneBuilder::affine_part(const glm::dmat4& matrix,
+                                                    const SourceLocation& where) {
+  if (is_affine(matrix)) return matrix / matrix[3][3];
+  diagnostics_.warn_once("projective", where,
+                         "a projective matrix is not supported as a transform: left out");
+  return std::nullopt;
+}
+
 void SceneBuilder::set(const glm::dmat4& matrix, const SourceLocation& where) {
-  if (!is_affine(matrix)) {
-    diagnostics_.warn_once("projective", where,
-                           "a projective matrix is not supported as a transform: left out");
-    return;
-  }
-  const glm::dmat4 affine = matrix / matrix[3][3];
+  const std::optional<glm::dmat4> affine = affine_part(matrix, where);
+  if (!affine) return;
   if (motion_)
-    motion_->set_transform(affine, where);
+    motion_->set_transform(*affine, where);
   else
-    outer_from_current_ = KeyedTransform(affine);
+    outer_from_current_ = KeyedTransform(*affine);
 }
 
 void SceneBuilder::concat(const glm::dmat4& matrix, const SourceLocation& where) {
-  if (!is_affine(matrix)) {
-    diagnostics_.warn_once("projective", where,
-                           "a projective matrix is not supported as a transform: left out");
-    return;
-  }
-  const glm::dmat4 affine = matrix / matrix[3][3];
+  const std::optional<glm::dmat4> affine = affine_part(matrix, where);
+  if (!affine) return;
   if (motion_)
-    motion_->concat_transform(affine, where);
+    motion_->concat_transform(*affine, where);
   else
-    outer_from_current_ = outer_from_current_ * KeyedTransform(affine);
+    outer_from_current_ = outer_from_current_ * KeyedTransform(*affine);
 }
 
 void SceneBuilder::perspective(double fov_degrees, const SourceLocation& where) {

@@ -52,11 +52,12 @@ TEST_CASE("a disc covers pi r^2 pixels") {
   CHECK(m.r2 == Approx(radius * radius / 2).epsilon(2e-3));
 }
 
-TEST_CASE("a linearly moving edge is blurred by a box") {
-  // The right edge of a wide polygon moves from raster x = 30 to 70 at constant speed: where a
-  // pixel's centre lies a share s of the way, it is covered for 1 - s of the shutter.
-  const Image image = render_text(R"(
-    Format 100 20 1  PixelSamples 16 16  PixelFilter "box" 1 1  Shutter 0 1
+// The right edge of a wide polygon moves from raster x = 30 towards 70 over scene time 0 to 1; the
+// shutter closes at `shutter_close`, when it is at `last`. Where a pixel's centre lies a share s of
+// the way, it is covered for 1 - s of the shutter.
+void check_moving_edge(double shutter_close, double last) {
+  const Image image = render_text(fmt::format(R"(
+    Format 100 20 1  PixelSamples 16 16  PixelFilter "box" 1 1  Shutter 0 {}
     ScreenWindow -5 5 -1 1
     Projection "orthographic"
     WorldBegin
@@ -66,36 +67,22 @@ TEST_CASE("a linearly moving edge is blurred by a box") {
         Translate 2 0 1
       MotionEnd
       Polygon "P" [-20 -5 0  -20 5 0  0 5 0  0 -5 0]
-    WorldEnd)");
+    WorldEnd)",
+                                              shutter_close));
   for (int x = 0; x < 100; ++x) {
-    const double expected = std::clamp((70 - (x + 0.5)) / 40, 0.0, 1.0);
-    // The ramp is linear within a pixel, so its mean is the value at the centre, except for the
-    // two pixels where the ramp ends: none here, as 30 and 70 are pixel borders. With 256
-    // stratified samples the error of the covered share is of the order of 1/256.
+    const double expected = std::clamp((last - (x + 0.5)) / (last - 30), 0.0, 1.0);
+    // The ramp is linear within every pixel, for it begins and ends at pixel borders, so its mean
+    // is the value at the centre. With 256 stratified samples the error of the covered share is of
+    // the order of 1/256.
     INFO("column " << x);
     CHECK(channel_at(image, "A", x, 10) == Approx(expected).margin(0.012));
   }
 }
 
+TEST_CASE("a linearly moving edge is blurred by a box") { check_moving_edge(1, 70); }
+
 TEST_CASE("motion that fills part of the shutter is seen for that part") {
-  // Keys at 0 and 1, shutter 0 to 0.5: half of the way, 20 pixels.
-  const Image image = render_text(R"(
-    Format 100 20 1  PixelSamples 16 16  PixelFilter "box" 1 1  Shutter 0 0.5
-    ScreenWindow -5 5 -1 1
-    Projection "orthographic"
-    WorldBegin
-      Surface "constant"
-      MotionBegin [0 1]
-        Translate -2 0 1
-        Translate 2 0 1
-      MotionEnd
-      Polygon "P" [-20 -5 0  -20 5 0  0 5 0  0 -5 0]
-    WorldEnd)");
-  for (int x = 0; x < 100; ++x) {
-    const double expected = std::clamp((50 - (x + 0.5)) / 20, 0.0, 1.0);
-    INFO("column " << x);
-    CHECK(channel_at(image, "A", x, 10) == Approx(expected).margin(0.012));
-  }
+  check_moving_edge(0.5, 50);
 }
 
 TEST_CASE("a defocused point becomes a disc of the circle of confusion") {
@@ -111,7 +98,8 @@ TEST_CASE("a defocused point becomes a disc of the circle of confusion") {
         Translate 0 0 {0}
         Surface "constant"
         Polygon "P" [-{1} -{1} 0  -{1} {1} 0  {1} {1} 0  {1} -{1} 0]
-      WorldEnd)", z, half));
+      WorldEnd)",
+                                                z, half));
     const Moments m = alpha_moments(image, 100, 100);
     INFO("depth " << z);
     CHECK(m.mass == Approx(0.64).epsilon(0.05));  // the quad's own 0.8 x 0.8 pixels
