@@ -94,7 +94,7 @@ void run_case(BenchmarkContext& context, const char* name, double motion_pixels,
               double coc_pixels) {
   const int width = context.scaled(960, 480), height = context.scaled(540, 270);
   const HiderScene scene(width, height, 16, motion_pixels, coc_pixels);
-  TesseraFrame tessera(scene, "dual");
+  TesseraFrame tessera(scene, "shear");
   EmbreeFrame embree(scene);
   const EmbreeVariant variant = best_variant(embree);
   HideCounters counters;

@@ -58,6 +58,8 @@ struct HideInput {
   float near_clip = 0, far_clip = 0;  ///< camera z; only hits within are seen
   float lens_extent = 1;              ///< largest |u|, |v|
   HideFeatures features;
+  /// Samples tested in each pixel of the bucket are added here, row-major; empty: nobody asks.
+  std::span<uint32_t> tests_per_pixel;
 };
 
 /// STE (sample test efficiency) is samples_covered / samples_tested, where a sample counts as
@@ -90,6 +92,11 @@ class Hider {
     virtual ~Scratch() = default;
   };
   virtual std::unique_ptr<Scratch> make_scratch() const = 0;
+  /// The samples this hider is made for. Throws Error if it cannot take so many a pixel.
+  virtual SampleTuples sample_tuples(int samples_per_pixel) const {
+    (void)samples_per_pixel;
+    return {};
+  }
   /// Writes the visible fragments of the bucket into `out` (cleared first) and adds to `counters`.
   virtual void hide(const HideInput& input, Scratch& scratch, FragmentList& out,
                     HideCounters& counters) const = 0;

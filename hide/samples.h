@@ -23,7 +23,24 @@ struct SampleBlock {
   AlignedVector<float>
       t;  ///< shutter time in [0, 1], ascending within a pixel; empty if nothing moves
 
+  AlignedVector<uint32_t> tuple;  ///< which tuple or line a sample is on; empty if they are free
+
   size_t size() const { return size_t(rect.pixel_count()) * size_t(samples_per_pixel); }
+};
+
+/// Samples whose time and lens position come from a few fixed tuples, or from lines across the
+/// lens: what hiders need that rasterise once for each of them.
+struct SampleTuples {
+  enum class Kind {
+    free,         ///< anywhere in (u, v, t)
+    interleaved,  ///< `count` tuples (u, v, t), permuted over the samples of each tile of 2 x 2
+                  ///< pixels
+    accumulated,  ///< `count` tuples (x, y, u, v, t), the same in every pixel
+    lens_lines,   ///< (u, v) anywhere on one of `count` lines through the lens centre; t free
+  };
+  Kind kind = Kind::free;
+  int count = 0;
+  bool operator==(const SampleTuples&) const = default;
 };
 
 /// Makes the samples of any pixel: a function of (pixel, seed) alone, whatever the bucket.

@@ -46,9 +46,9 @@ TEST_CASE("threads, bucket size, hider and memory budget do not show in the imag
   folder.write("s.rib", everything_scene());
   const Image reference = render(folder, {"--threads", "1", "--hider", "bbox"});
   for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-           {"--threads", "1", "--hider", "dual"},
+           {"--threads", "1", "--hider", "shear"},
            {"--threads", "2", "--hider", "bbox"},
-           {"--threads", "7", "--hider", "dual"},
+           {"--threads", "7", "--hider", "shear"},
            {"--bucket-size", "5"},
            {"--bucket-size", "16", "--threads", "3"},
            {"--bucket-size", "4096"},

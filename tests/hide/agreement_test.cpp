@@ -15,7 +15,7 @@ namespace {
 /// The hiders give the same fragments bit for bit, and bbox shares no bounds with dual.
 void require_agreement(const TestBucket& bucket) {
   const FragmentList expected = bucket.hide("bbox");
-  for (const char* hider : {"dual", "dual:1", "dual:7"}) {
+  for (const char* hider : {"shear", "shear:1", "shear:7"}) {
     INFO(hider << ", " << expected.size() << " fragments expected");
     REQUIRE(same_fragments(expected, bucket.hide(hider)));
   }
@@ -35,7 +35,7 @@ TEST_CASE("Dual bounds and brute force agree bit for bit") {
                            << " spp " << spp << " seed " << seed);
             const TestBucket bucket = random_bucket(seed, o, {16, 8, 48, 40}, spp, 12);
             HideCounters counters;
-            REQUIRE(bucket.hide("dual", &counters).size() > 0);
+            REQUIRE(bucket.hide("shear", &counters).size() > 0);
             REQUIRE(counters.samples_covered <= counters.samples_tested);
             require_agreement(bucket);
           }
@@ -92,7 +92,7 @@ TEST_CASE("Degenerate and unusable vertices") {
         INFO("motion " << motion << " lens " << lens << " vertex " << odd);
         require_agreement(bucket);
         HideCounters counters;
-        const FragmentList list = bucket.hide("dual", &counters);
+        const FragmentList list = bucket.hide("shear", &counters);
         for (size_t i = 0; i < list.size(); ++i) {
           REQUIRE(std::isfinite(list.z[i]));
           REQUIRE(std::isfinite(list.b1[i]));
@@ -105,7 +105,7 @@ TEST_CASE("Images of one pixel and empty buckets") {
   for (const int spp : {1, 3, 16, 17}) {
     require_agreement(random_bucket(1, {.motion = true, .lens = true}, {20, 20, 21, 21}, spp, 20));
     const TestBucket empty = random_bucket(1, {}, {20, 20, 21, 22}, spp, 0);
-    const FragmentList list = empty.hide("dual");
+    const FragmentList list = empty.hide("shear");
     REQUIRE(list.size() == 0);
     REQUIRE(list.first_of_sample.size() == size_t(2 * spp + 1));
   }
@@ -141,7 +141,7 @@ TEST_CASE("Transparent surfaces: lists agree, are in order, and end at the first
           for (size_t i = 0; i < list.size(); ++i)
             expected[list.sample[i]].push_back({list.z[i], uint32_t(g), list.triangle[i]});
         }
-        const FragmentList list = bucket.hide("dual");
+        const FragmentList list = bucket.hide("shear");
         REQUIRE(same_fragments(list, bucket.hide("bbox")));
         size_t longest = 0;
         for (size_t s = 0; s < expected.size(); ++s) {
@@ -167,7 +167,7 @@ TEST_CASE("Everything a hider counts") {
   const TestBucket bucket = random_bucket(5, {}, {16, 8, 48, 40}, 16, 30);
   HideCounters brute, dual;
   const FragmentList list = bucket.hide("bbox", &brute);
-  bucket.hide("dual", &dual);
+  bucket.hide("shear", &dual);
   REQUIRE(brute.samples == bucket.samples.size());
   REQUIRE(brute.fragments == list.size());
   REQUIRE(dual.micropolygons == brute.micropolygons);
@@ -191,8 +191,8 @@ TEST_CASE("The hiders agree on every SIMD target of this machine") {
     INFO("target " << hwy::TargetName(target));
     require_agreement(bucket);
     require_agreement(still);
-    REQUIRE(double(bucket.hide("dual").size()) == Approx(expected[0]).epsilon(1e-3));
-    REQUIRE(double(still.hide("dual").size()) == Approx(expected[1]).epsilon(1e-3));
+    REQUIRE(double(bucket.hide("shear").size()) == Approx(expected[0]).epsilon(1e-3));
+    REQUIRE(double(still.hide("shear").size()) == Approx(expected[1]).epsilon(1e-3));
     ++targets;
   }
   hwy::SetSupportedTargetsForTest(0);

@@ -42,7 +42,7 @@ TEST_CASE("A disc of micropolygons covers the area of its polygon") {
   }));
   bucket.make_samples({0, 0, 24, 24}, 256, 1);
   const double expected = 0.5 * n * radius * radius * std::sin(2 * pi / n);
-  for (const char* hider : {"bbox", "dual"}) {
+  for (const char* hider : {"bbox", "shear"}) {
     double area = 0;
     for (const double c : pixel_coverage(bucket, bucket.hide(hider))) area += c;
     // About 60 border pixels, each with a stratified error of about 256^(-3/4) = 0.016, root sum:
@@ -58,7 +58,7 @@ TEST_CASE("A moving edge blurs to a ramp") {
     return glm::vec3(4 + 8 * key - 20 * (1 - u), -1 + 6 * v, 2);
   }));
   bucket.make_samples({0, 0, 16, 4}, 1024, 2);
-  for (const char* hider : {"bbox", "dual"}) {
+  for (const char* hider : {"bbox", "shear"}) {
     const auto coverage = pixel_coverage(bucket, bucket.hide(hider));
     for (int i = 0; i < 16; ++i) {
       // Mean over the pixel of the share of t with 4 + 8 t > x: 1 - (x - 4) / 8, clamped.
@@ -76,7 +76,7 @@ TEST_CASE("Three keys: out and back") {
     return glm::vec3((key == 1 ? 10 : 4) + 2 * u, -1 + 6 * v, 2);
   }));
   bucket.make_samples({0, 0, 16, 4}, 1024, 2);
-  for (const char* hider : {"bbox", "dual"}) {
+  for (const char* hider : {"bbox", "shear"}) {
     const auto coverage = pixel_coverage(bucket, bucket.hide(hider));
     // A point is under the square while it travels its own length: 2 / 24 + 2 / 8 of the time.
     for (const int x : {7, 8})
@@ -98,7 +98,7 @@ TEST_CASE("A point out of focus is a disc of the circle of confusion") {
   // them.
   const double radius = 32 * 0.5 * std::abs(z / 4 - 1) / z;
   REQUIRE(std::abs(bucket.camera.coc_raster(float(z)).x) == Approx(radius));
-  for (const char* hider : {"bbox", "dual"}) {
+  for (const char* hider : {"bbox", "shear"}) {
     const FragmentList list = bucket.hide(hider);
     double weight = 0, second_moment = 0, farthest = 0;
     for (size_t i = 0; i < list.size(); ++i) {
@@ -136,7 +136,7 @@ TEST_CASE("One-sided surfaces show the side of their normal") {
         const glm::dvec3 normal = double(normal_sign) * glm::cross(b - a, d - a);
         const glm::dvec3 view = orthographic ? glm::dvec3(0, 0, 1) : a;
         const bool faces_camera = glm::dot(normal, view) < 0;
-        for (const char* hider : {"bbox", "dual"})
+        for (const char* hider : {"bbox", "shear"})
           REQUIRE((bucket.hide(hider).size() > 0) == faces_camera);
       }
 }
@@ -149,7 +149,7 @@ TEST_CASE("The clipping planes cut surfaces") {
   bucket.add(
       make_grid(5, 1, {0}, [](float u, float v, int) { return glm::vec3(16 * u, 4 * v, 4 * u); }));
   bucket.make_samples({0, 0, 16, 4}, 16, 1);
-  for (const char* hider : {"bbox", "dual"}) {
+  for (const char* hider : {"bbox", "shear"}) {
     const auto coverage = pixel_coverage(bucket, bucket.hide(hider));
     for (int x = 0; x < 16; ++x) REQUIRE(coverage[size_t(x)] == (x >= 4 && x < 12 ? 1.0 : 0.0));
   }
@@ -162,7 +162,7 @@ TEST_CASE("At equal depth the earlier grid is in front") {
       bucket.add(make_grid(2, 2, motion ? std::vector<float>{0, 1} : std::vector<float>{0},
                            [](float u, float v, int) { return glm::vec3(8 * u, 8 * v, 2); }));
     bucket.make_samples({0, 0, 8, 8}, 16, 1);
-    for (const char* hider : {"bbox", "dual"}) {
+    for (const char* hider : {"bbox", "shear"}) {
       const FragmentList list = bucket.hide(hider);
       REQUIRE(list.size() == bucket.samples.size());
       for (const uint32_t g : list.grid) REQUIRE(g == 0);

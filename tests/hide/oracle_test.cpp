@@ -263,7 +263,7 @@ TEST_CASE("The hiders agree with Embree except within rounding of an edge") {
       for (uint32_t seed = 70; seed < 76; ++seed) {
         const TestBucket bucket = random_bucket(seed, o, {8, 8, 56, 40}, 16, 16);
         const EmbreeScene scene(bucket);
-        const FragmentList list = bucket.hide("dual");
+        const FragmentList list = bucket.hide("shear");
         for (size_t s = 0; s < bucket.samples.size(); ++s) {
           const RTCRayHit h = scene.trace(sample_ray(bucket, s), bucket.camera.near_clip());
           const size_t first = list.first_of_sample[s];

@@ -41,7 +41,7 @@ TestBucket sheets(bool motion, bool lens, int layers) {
 }
 
 void require_layers(const TestBucket& bucket, int layers) {
-  for (const char* hider : {"bbox", "dual"}) {
+  for (const char* hider : {"bbox", "shear"}) {
     const FragmentList list = bucket.hide(hider);
     for (size_t s = 0; s < bucket.samples.size(); ++s) {
       INFO(hider << " sample " << s << " at " << bucket.samples.x[s] << " " << bucket.samples.y[s]);
@@ -88,7 +88,7 @@ TEST_CASE("Samples exactly on shared vertices, edges and diagonals meet a sheet 
       bucket.samples.x[s] = float(p % 16) + 0.5f * float(k % 2);
       bucket.samples.y[s] = float(p / 16) + 0.5f * float(k / 2);
     }
-    for (const char* hider : {"bbox", "dual"}) {
+    for (const char* hider : {"bbox", "shear"}) {
       const FragmentList list = bucket.hide(hider);
       for (size_t s = 0; s < bucket.samples.size(); ++s) {
         INFO(hider << " sample at " << bucket.samples.x[s] << " " << bucket.samples.y[s]);

@@ -14,9 +14,9 @@
 namespace tessera {
 namespace {
 
-class DualHider final : public Hider {
+class ShearHider final : public Hider {
  public:
-  explicit DualHider(int tile_size) : tile_size_(tile_size) {}
+  explicit ShearHider(int tile_size) : tile_size_(tile_size) {}
 
   class Buffers final : public Scratch {
    public:
@@ -107,23 +107,24 @@ class DualHider final : public Hider {
   int tile_size_;
 };
 
-std::unique_ptr<Hider> make_dual(std::string_view arguments) {
+std::unique_ptr<Hider> make_shear(std::string_view arguments) {
   int tile = 4;
   if (!arguments.empty()) {
     const char* end = arguments.data() + arguments.size();
     const auto [stop, error] = std::from_chars(arguments.data(), end, tile);
     if (error != std::errc() || stop != end || tile < 1 || tile > 64)
-      throw Error(fmt::format("hider dual: found \"{}\"; expected a tile size of 1 to 64 pixels",
+      throw Error(fmt::format("hider shear: found \"{}\"; expected a tile size of 1 to 64 pixels",
                               arguments));
   }
-  return std::make_unique<DualHider>(tile);
+  return std::make_unique<ShearHider>(tile);
 }
 
 }  // namespace
 
-HiderDefinition hider_dual() {
-  return {"dual", "interval bounds in time and on the lens; dual:N sets tiles of N pixels",
-          make_dual};
+HiderDefinition hider_shear() {
+  return {"shear",
+          "samples sheared back into each grid's own space; shear:N sets tiles of N pixels",
+          make_shear};
 }
 
 }  // namespace tessera
