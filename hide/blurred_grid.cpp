@@ -142,13 +142,14 @@ void visit_block(const BlurredGridJob& job, int depth, const GridBlock& block, B
 }
 
 template <bool kMotion, bool kLens>
-uint64_t hide_blurred(const BlurredGridJob& job) {
+uint64_t hide_blurred(const BlurredGridJob& job, const GridBlock& block) {
   BlurScratch& scratch = *job.scratch;
-  const GridBlock whole{0, 0, job.clip->u_count(), job.clip->v_count()};
   const BlockBounds bounds = bound_vertices<kMotion, kLens>(*job.segment, job.clip->u_count(),
-                                                            job.test.frame, job.box, whole);
+                                                            job.test.frame, job.box, block);
   size_t depths = 1;
-  for (int size = std::max(whole.i1, whole.j1); size > patch_size; size = (size + 1) / 2) ++depths;
+  for (int size = std::max(block.i1 - block.i0, block.j1 - block.j0); size > patch_size;
+       size = (size + 1) / 2)
+    ++depths;
   if (scratch.blocks.size() < depths) scratch.blocks.resize(depths);
   CandidateList& all = scratch.blocks[0];
   all.reserve(size_t(job.rect.pixel_count()) * job.test.samples_per_pixel);
@@ -157,16 +158,17 @@ uint64_t hide_blurred(const BlurredGridJob& job) {
   scratch.patch.reserve(all.count), scratch.micropolygon.reserve(all.count);
 
   BlurCounts counts;
-  visit_block<kMotion, kLens>(job, 0, whole, counts);
+  visit_block<kMotion, kLens>(job, 0, block, counts);
   job.counters->samples_covered += counts.coverage.covered;
   job.counters->nonfinite_dropped += counts.coverage.nonfinite;
   return counts.micropolygons;
 }
 
-uint64_t hide_any(const BlurredGridJob& job) {
+uint64_t hide_any(const BlurredGridJob& job, const GridBlock& block) {
   if (job.test.motion)
-    return job.test.lens ? hide_blurred<true, true>(job) : hide_blurred<true, false>(job);
-  return hide_blurred<false, true>(job);
+    return job.test.lens ? hide_blurred<true, true>(job, block)
+                         : hide_blurred<true, false>(job, block);
+  return hide_blurred<false, true>(job, block);
 }
 
 BlockBounds bound_any(const ClipSegment& segment, int u_count, const CoverageFrame& frame,
@@ -189,8 +191,8 @@ namespace tessera {
 HWY_EXPORT(hide_any);
 HWY_EXPORT(bound_any);
 
-uint64_t hide_blurred_grid(const BlurredGridJob& job) {
-  return HWY_DYNAMIC_DISPATCH(hide_any)(job);
+uint64_t hide_blurred_block(const BlurredGridJob& job, const GridBlock& block) {
+  return HWY_DYNAMIC_DISPATCH(hide_any)(job, block);
 }
 
 BlockBounds bound_block(const ClipSegment& segment, int u_count, const CoverageFrame& frame,

@@ -37,15 +37,16 @@ struct BlurredGridJob {
   const ClipSegment* segment = nullptr;
   PixelRect rect;  ///< the bucket
   SampleBox box;
-  int tile_size = 4;         ///< pixels
-  SampleInterval time_span;  ///< when the grid is between the clipping planes
-  float z_nearest = 0;       ///< no hit on the segment is nearer
-  uint32_t id0 = 0;          ///< of the grid's first triangle
+  int tile_size = 4;              ///< pixels
+  SampleInterval time_span;       ///< when the grid is between the clipping planes
+  float t_first = 0, t_last = 1;  ///< only samples with t_first <= t <= t_last, with motion
+  float z_nearest = 0;            ///< no hit on the segment is nearer
+  uint32_t id0 = 0;               ///< of the grid's first triangle
   BlurScratch* scratch = nullptr;
   HideCounters* counters = nullptr;
 };
 
-/// Returns the number of micropolygons that were tested.
-uint64_t hide_blurred_grid(const BlurredGridJob& job);
+/// Hides a block of the grid. Returns the number of micropolygons that were tested.
+uint64_t hide_blurred_block(const BlurredGridJob& job, const GridBlock& block);
 
 }  // namespace tessera

@@ -112,6 +112,9 @@ void gather_candidates(const BlurredGridJob& job, const BlockBounds& bounds, Can
           const FloatVec z = hn::LoadU(d, job.test.buffer->z() + begin + k);
           FloatMask keep = hn::And(hn::FirstN(d, length - k), hn::Ge(z, nearest));
           keep = within<kMotion, kLens>(column, row, job.test.frame, s, keep);
+          if constexpr (kMotion)
+            keep = hn::And(keep, hn::And(hn::Ge(s.t, hn::Set(d, job.t_first)),
+                                         hn::Le(s.t, hn::Set(d, job.t_last))));
           if (hn::AllFalse(d, keep)) continue;
           const Sheared sheared = shear<kMotion, kLens>(job, bounds.shear, s);
           keep = hn::And(keep, inside(sheared, bounds.low, bounds.high));

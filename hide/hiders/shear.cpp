@@ -6,7 +6,7 @@
 #include <charconv>
 
 #include "base/error.h"
-#include "hide/blurred_grid.h"
+#include "hide/sheared_grid.h"
 #include "hide/depth_margin.h"
 #include "hide/hide.h"
 #include "hide/static_grid.h"
@@ -25,6 +25,7 @@ class ShearHider final : public Hider {
     TileDepth depth;
     PixelBoxes boxes;
     BlurScratch blur;
+    ShearScratch shear;
   };
 
   std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<Buffers>(); }
@@ -78,7 +79,8 @@ class ShearHider final : public Hider {
 
   uint64_t hide_blurred(const HideInput& input, size_t g, const ClipSegment& segment, float nearest,
                         Buffers& buffers, HideCounters& counters) const {
-    BlurredGridJob job;
+    ShearedGridJob sheared;
+    BlurredGridJob& job = sheared.blur;
     job.test =
         pixel_test_job(input, buffers.clip, segment, input.grids[g].opaque, buffers.fragments);
     job.clip = &buffers.clip;
@@ -91,7 +93,9 @@ class ShearHider final : public Hider {
     job.id0 = buffers.fragments.ids().id(g, 0);
     job.scratch = &buffers.blur;
     job.counters = &counters;
-    return job.time_span.empty() ? 0 : hide_blurred_grid(job);
+    job.t_first = job.test.frame.t_begin, job.t_last = job.test.frame.t_last;
+    sheared.scratch = &buffers.shear;
+    return job.time_span.empty() ? 0 : hide_sheared_grid(sheared);
   }
 
   static SampleInterval time_span(const HideInput& input, const ClipSegment& s, size_t count) {
