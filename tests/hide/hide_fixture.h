@@ -60,7 +60,8 @@ struct TestBucket {
                                 motion ? &camera.shutter_profile() : nullptr, tuples);
     pattern.fill(rect, samples);
   }
-  FragmentList hide(const std::string& hider, HideCounters* counters = nullptr) const {
+  FragmentList hide(const std::string& hider, HideCounters* counters = nullptr,
+                    std::span<uint32_t> tests_per_pixel = {}) const {
     std::vector<HideGrid> hide_grids;
     HideInput input;
     for (size_t g = 0; g < grids.size(); ++g) {
@@ -68,6 +69,7 @@ struct TestBucket {
       input.features.transparency |= !hide_grids.back().opaque;
     }
     input.samples = &samples;
+    input.tests_per_pixel = tests_per_pixel;
     input.grids = hide_grids;
     input.raster_clip = camera.raster_clip();
     input.near_clip = camera.near_clip(), input.far_clip = camera.far_clip();
