@@ -184,6 +184,10 @@ TEST_CASE("Tests of each pixel add up to the samples tested") {
     REQUIRE(counters.samples_tested == unasked.samples_tested);
     REQUIRE(counters.samples_tested > 0);
     REQUIRE(std::accumulate(tests.begin(), tests.end(), uint64_t(0)) == counters.samples_tested);
+    std::fill(tests.begin(), tests.end(), 0u);
+    HideCounters brute;
+    bucket.hide("bbox", &brute, tests);
+    REQUIRE(std::accumulate(tests.begin(), tests.end(), uint64_t(0)) == brute.samples_tested);
   }
 }
 
