@@ -25,7 +25,7 @@ struct SampleBlock {
   AlignedVector<float>
       t;  ///< shutter time in [0, 1], ascending within a pixel; empty if nothing moves
 
-  /// [sample] its tuple, numbered in order of time, or its line; empty if samples are free.
+  /// Its tuple, numbered in order of time, or its line; 0 in the padding. Empty if samples are free.
   AlignedVector<uint32_t> tuple;
 
   size_t size() const { return size_t(rect.pixel_count()) * size_t(samples_per_pixel); }
