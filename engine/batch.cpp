@@ -10,6 +10,7 @@
 
 #include "engine/frame.h"
 #include "engine/frame_numbers.h"
+#include "engine/heatmap.h"
 #include "engine/outputs.h"
 #include "scenes/rib/rib_reader.h"
 #include "scenes/scene_sink.h"
@@ -122,6 +123,8 @@ void Batch::run_frame(const SceneFile& file, const Scene& scene, bool several,
       files.images = display_outputs(scene);
       files.from_displays = true;
     }
+    if (request_.settings.heatmap)
+      files.heatmap = heatmap_path(files.images.front(), *request_.settings.heatmap);
     claim(files);
     if (skip(files, label)) return;
     for (const std::string& name : files.all()) check_writable(name);
@@ -155,6 +158,11 @@ void Batch::render(const Scene& scene, const FrameFiles& files, const std::strin
   if (!files.preview.empty()) {
     write_preview(frame, files.preview);
     written.push_back(files.preview);
+  }
+  if (!files.heatmap.empty()) {
+    write_heatmap(frame, files.heatmap);
+    written.push_back(files.heatmap);
+    console_.note(describe_scale(heatmap_scale(frame.image, frame.heatmap), frame.heatmap));
   }
   if (!files.statistics.empty()) {
     write_text_file(files.statistics, frame.statistics.json().dump(2) + "\n");

@@ -25,6 +25,7 @@ void BucketRenderer::render(int i, int j) {
   const auto grids = parts_.grids.grids_of_bucket(i, j);
   timer.lap(times_.dice_s);
   parts_.pattern.fill(parts_.buckets.rect(i, j), samples_);
+  if (parts_.heatmap) pixel_counts_.assign(size_t(samples_.rect.pixel_count()), 0);
   timer.lap(times_.sample_s);
   hide(grids);
   timer.lap(times_.hide_s);
@@ -33,6 +34,7 @@ void BucketRenderer::render(int i, int j) {
   timer.lap(times_.shade_s);
   SampleValues values = composite_samples(input);
   timer.lap(times_.composite_s);
+  if (parts_.heatmap) parts_.heatmap->add_bucket(samples_.rect, pixel_counts_);
   parts_.film.add_bucket(i, j, std::move(values));
   timer.lap(times_.reconstruct_s);
   parts_.grids.finish_bucket(i, j);
@@ -51,6 +53,8 @@ void BucketRenderer::hide(const std::vector<std::shared_ptr<const Grid>>& grids)
   input.far_clip = parts_.camera.far_clip();
   input.lens_extent = parts_.camera.lens_profile().extent();
   input.features = parts_.features;
+  if (parts_.heatmap && parts_.heatmap->definition().hide_counts)
+    input.*parts_.heatmap->definition().hide_counts = pixel_counts_;
   parts_.hider.hide(input, *scratch_, fragments_, hide_counters_);
 }
 

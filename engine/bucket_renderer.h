@@ -8,6 +8,7 @@
 
 #include "dice/dice.h"
 #include "engine/buckets.h"
+#include "engine/heatmap.h"
 #include "hide/hide.h"
 #include "reconstruct/reconstruct.h"
 #include "shade/shade.h"
@@ -26,6 +27,7 @@ struct FrameParts {
   GridSource& grids;
   Shading& shading;
   Film& film;
+  Heatmap* heatmap;  ///< null: nobody asks what pixels cost
 };
 
 /// Seconds a worker spent in each stage.
@@ -61,6 +63,7 @@ class BucketRenderer {
   std::unique_ptr<Hider::Scratch> scratch_;
   SampleBlock samples_;
   std::vector<HideGrid> hide_grids_;
+  std::vector<uint32_t> pixel_counts_;  // for the heat map
   FragmentList fragments_;
   ShadedFragments shaded_;
   HideCounters hide_counters_;

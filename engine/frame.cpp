@@ -3,6 +3,7 @@
 #include <ctime>
 #include <filesystem>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include <fmt/chrono.h>
@@ -160,20 +161,31 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   const auto hider = make_hider(plan.hider);
   const auto shading = make_shading(plan.shading, bindings);
   const int threads = thread_count(settings);
+  std::optional<Heatmap> heatmap;
+  if (settings.heatmap) heatmap.emplace(find_heatmap(*settings.heatmap), camera.crop());
 
   FrameResult result;
   if (!scene.surfaces.empty()) {
     const auto displacer = plan.displacement ? make_displacer(bindings) : nullptr;
-    const SamplePattern pattern(plan.samples_per_pixel, settings.seed,
-                                plan.lens ? &camera.lens_profile() : nullptr,
-                                plan.motion ? &camera.shutter_profile() : nullptr);
+    const SamplePattern pattern(
+        plan.samples_per_pixel, settings.seed, plan.lens ? &camera.lens_profile() : nullptr,
+        plan.motion ? &camera.shutter_profile() : nullptr, plan.sample_tuples);
     const auto grids = make_grid_source(
         scene, camera, dice_settings(plan, buckets, settings, displacer.get(), bindings),
         diagnostics);
     statistics.setup_done();
     const HideFeatures features{plan.motion, plan.lens, plan.transparency};
-    const FrameParts parts{camera,    buckets, pattern, *hider,   features,
-                           *bindings, groups,  *grids,  *shading, *film};
+    const FrameParts parts{camera,
+                           buckets,
+                           pattern,
+                           *hider,
+                           features,
+                           *bindings,
+                           groups,
+                           *grids,
+                           *shading,
+                           *film,
+                           heatmap ? &*heatmap : nullptr};
     BucketQueue queue(buckets, control);
     render_buckets(parts, threads, queue, statistics);
     result.complete = queue.complete();
@@ -183,6 +195,11 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   result.image = film->finish();
   result.image.pixel_aspect = scene.camera.pixel_aspect;
   statistics.add(film->counters());
+  if (heatmap) {
+    result.heatmap = heatmap->definition().name;
+    heatmap->add_channel(result.image);
+    statistics.add(heatmap_scale(result.image, result.heatmap), *heatmap, plan, diagnostics);
+  }
   result.statistics = statistics.finish(plan, scene, settings, threads, diagnostics);
   add_metadata(result, scene);
   return result;

@@ -27,6 +27,7 @@ struct FrameResult {
   /// and the options in force, the version and the time, and whether the frame is complete.
   Image image;
   Statistics statistics;
+  std::string heatmap;  ///< name of the heat map among the channels; empty: none
   bool display_encoded = false;  ///< the scene's Exposure has a gamma: colours are not linear
   bool complete = true;  ///< false after a cancellation: missing buckets are black and transparent
 };

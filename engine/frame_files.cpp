@@ -20,6 +20,7 @@ std::vector<std::string> FrameFiles::all() const {
   std::vector<std::string> names = images;
   if (!preview.empty()) names.push_back(preview);
   if (!statistics.empty()) names.push_back(statistics);
+  if (!heatmap.empty()) names.push_back(heatmap);
   return names;
 }
 

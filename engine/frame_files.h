@@ -10,7 +10,7 @@ namespace tessera {
 /// The files of one frame. Empty names: not wanted.
 struct FrameFiles {
   std::vector<std::string> images;
-  std::string preview, statistics;
+  std::string preview, statistics, heatmap;
   bool from_displays = false;  ///< the images are those of the scene's Displays
 
   std::vector<std::string> all() const;

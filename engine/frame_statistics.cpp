@@ -47,6 +47,7 @@ std::vector<std::pair<std::string, std::string>> options_in_force(const Scene& s
       {"memory_budget_bytes", std::to_string(settings.memory_bytes)}};
   if (settings.shading_rate)
     options.emplace_back("shading_rate", fmt::format("{}", *settings.shading_rate));
+  if (settings.heatmap) options.emplace_back("heatmap", *settings.heatmap);
   return options;
 }
 
@@ -64,6 +65,15 @@ void FrameStatistics::add(const GridSource& grids) {
   peak_grid_bytes_ = grids.peak_bytes();
 }
 
+void FrameStatistics::add(const HeatmapScale& scale, const Heatmap& map, const FramePlan& plan,
+                          Diagnostics& diagnostics) {
+  const std::string name = map.definition().name;
+  heatmap_ = {{name + "_min", scale.min}, {name + "_max", scale.max}, {name + "_mean", scale.mean}};
+  if (!map.filled() && hide_.samples_tested > 0)
+    diagnostics.warn_once(
+        "heat map", fmt::format("the hider {} does not fill the heat map '{}'", plan.hider, name));
+}
+
 Statistics FrameStatistics::finish(const FramePlan& plan, const Scene& scene,
                                    const Settings& settings, int threads,
                                    const Diagnostics& diagnostics) const {
@@ -75,6 +85,7 @@ Statistics FrameStatistics::finish(const FramePlan& plan, const Scene& scene,
   append_counts("hide", hide_, statistics);
   append_counts("shade", shade_, statistics);
   append_counts("film", film_, statistics);
+  statistics.heatmap = heatmap_;
   statistics.ratios = {{"ste", ratio(hide_.samples_covered, hide_.samples_tested)}};
   statistics.memory_bytes = {{"peak_resident_bytes", peak_resident_bytes()},
                              {"peak_grid_bytes", peak_grid_bytes_}};

@@ -17,6 +17,9 @@ class FrameStatistics {
   void add(const BucketRenderer& worker);
   void add(const GridSource& grids);
   void add(const FilmCounters& film) { merge_counters(film_, film); }
+  /// The last to be added. Warns if the map is empty because the plan's methods do not fill it.
+  void add(const HeatmapScale& scale, const Heatmap& map, const FramePlan& plan,
+           Diagnostics& diagnostics);
 
   Statistics finish(const FramePlan& plan, const Scene& scene, const Settings& settings,
                     int threads, const Diagnostics& diagnostics) const;
@@ -34,6 +37,7 @@ class FrameStatistics {
   ShadeCounters shade_;
   DiceCounters dice_;
   FilmCounters film_;
+  std::vector<std::pair<std::string, double>> heatmap_;
   size_t peak_grid_bytes_ = 0;
 };
 

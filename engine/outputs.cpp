@@ -1,14 +1,15 @@
 #include "engine/outputs.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "engine/heatmap.h"
 #include "images/exr.h"
 #include "images/image_module.h"
+#include "images/preview.h"
 #include "shade/shade.h"
 
 namespace tessera {
@@ -82,11 +83,6 @@ Image with_channels(const Image& image, const std::vector<std::string>& names) {
   return picked;
 }
 
-/// The linear value whose sRGB code value is `code` (IEC 61966-2-1).
-float linear_from_srgb(float code) {
-  return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
-}
-
 /// Undoes, for colours that a scene's own Exposure has made fit for a display, the encoding that an
 /// 8-bit file is about to apply.
 void decode_colours(Image& image) {
@@ -127,7 +123,10 @@ std::vector<std::string> write_displays(const FrameResult& frame, const Scene& s
   std::vector<std::string> written;
   for (const Display& display : scene.displays) {
     if (!is_file(display)) continue;
-    Image image = with_channels(frame.image, mode_channels(display));
+    std::vector<std::string> channels = mode_channels(display);
+    if (!frame.heatmap.empty() && is_exr(display_path(display)) && !is_depth_file(display))
+      channels.push_back(heatmap_channel(frame.heatmap));
+    Image image = with_channels(frame.image, channels);
     if (image.channels.empty()) {
       diagnostics.warn_once("display " + display.file, display.where,
                             fmt::format("Display mode '{}' names no channel; '{}' is not written",
@@ -152,6 +151,14 @@ void write_preview(const FrameResult& frame, const std::string& path) {
   Image picture = with_channels(frame.image, {"R", "G", "B"});
   if (is_exr(path)) return write_exr(path, picture);
   write_other(std::move(picture), path, frame.display_encoded);
+}
+
+std::string heatmap_path(const std::string& image, std::string_view name) {
+  return std::filesystem::path(image).replace_extension(fmt::format(".{}.png", name)).string();
+}
+
+void write_heatmap(const FrameResult& frame, const std::string& path) {
+  load_image_module()->write_image(path, heatmap_picture(frame.image, frame.heatmap));
 }
 
 }  // namespace tessera

@@ -2,6 +2,7 @@
 /// Which files a rendered frame becomes.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/frame.h"
@@ -23,5 +24,11 @@ std::vector<std::string> write_displays(const FrameResult& frame, const Scene& s
 
 /// An 8-bit picture to look at, from the rgb channels; sRGB unless the scene's own Exposure encodes it.
 void write_preview(const FrameResult& frame, const std::string& path);
+
+/// Where the picture of heat map `name` goes: OUT.exr -> OUT.NAME.png.
+std::string heatmap_path(const std::string& image, std::string_view name);
+
+/// The frame's heat map in false colours (engine/heatmap.h).
+void write_heatmap(const FrameResult& frame, const std::string& path);
 
 }  // namespace tessera

@@ -21,9 +21,10 @@ struct Settings {
   std::optional<std::string> filter;   ///< "name" or "name:XxY", full widths in pixels
   std::optional<int> bucket_size;      ///< pixels
   std::optional<int> grid_size;        ///< micropolygons along a side
-  std::vector<std::string> aovs;       ///< channel groups; empty: rgb, a, z and those of the displays
+  std::vector<std::string> aovs;  ///< channel groups; empty: rgb, a, z and those of the displays
+  std::optional<std::string> heatmap;  ///< measure to map, one of engine/heatmap.h
   uint32_t seed = 0;
-  int threads = 0;                     ///< 0: every core
+  int threads = 0;                        ///< 0: every core
   size_t memory_bytes = size_t(2) << 30;  ///< budget for diced grids
 };
 

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "engine/heatmap.h"
 #include "hide/hide.h"
 #include "reconstruct/pixel_filter.h"
 #include "shade/shade.h"
@@ -129,6 +130,9 @@ void add_settings_options(CLI::App& app, Settings& settings) {
       ->type_name("R");
   add_raster_options(app, settings);
   add_choice_options(app, settings);
+  app.add_option("--heatmap", settings.heatmap,
+                 "map what pixels cost: a channel of the image and OUT.NAME.png in false colours")
+      ->check(one_of(heatmap_registry(), "heat map"));
   app.add_option("--bucket-size", settings.bucket_size, "side of a bucket in pixels")
       ->check(CLI::Range(1, max_bucket_size))
       ->type_name("N");
@@ -150,7 +154,8 @@ std::string list_choices() {
   return "\n" + list_registry("Hiders", hider_registry()) +
          list_registry("Shading modes", shading_mode_registry()) +
          list_registry("Filters", pixel_filter_registry()) +
-         list_registry("Channels (--aov)", aov_registry());
+         list_registry("Channels (--aov)", aov_registry()) +
+         list_registry("Heat maps (--heatmap)", heatmap_registry());
 }
 
 }  // namespace tessera

@@ -33,10 +33,13 @@ constexpr double bytes_per_mib = 1024.0 * 1024.0;
 }  // namespace
 
 nlohmann::ordered_json Statistics::json() const {
-  return {{"times_s", object_of(times_s)}, {"counts", object_of(counts)},
-          {"ratios", object_of(ratios)},   {"memory_bytes", object_of(memory_bytes)},
-          {"plan", object_of(plan)},       {"options", object_of(options)},
-          {"warnings", warnings}};
+  nlohmann::ordered_json json = {
+      {"times_s", object_of(times_s)}, {"counts", object_of(counts)},
+      {"ratios", object_of(ratios)},   {"memory_bytes", object_of(memory_bytes)},
+      {"plan", object_of(plan)},       {"options", object_of(options)},
+      {"warnings", warnings}};
+  if (!heatmap.empty()) json["heatmap"] = object_of(heatmap);
+  return json;
 }
 
 std::string Statistics::summary() const {
@@ -55,6 +58,7 @@ std::string Statistics::report() const {
   append_section(text, "counts", counts);
   append_section(text, "ratios", ratios);
   append_section(text, "memory", memory_bytes);
+  if (!heatmap.empty()) append_section(text, "heat map (per pixel)", heatmap);
   return text;
 }
 

@@ -18,6 +18,7 @@ struct Statistics {
   std::vector<std::pair<std::string, uint64_t>> counts;
   std::vector<std::pair<std::string, double>> ratios;
   std::vector<std::pair<std::string, uint64_t>> memory_bytes;
+  std::vector<std::pair<std::string, double>> heatmap;  ///< per pixel; empty unless asked for
   std::vector<std::pair<std::string, std::string>> plan, options;
   std::vector<std::string> warnings;
 

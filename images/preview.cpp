@@ -19,6 +19,10 @@ uint8_t srgb8_from_linear(float linear) {
   return code8(1.055f * std::pow(std::min(linear, 1.0f), 1.0f / 2.4f) - 0.055f);
 }
 
+float linear_from_srgb(float code) {
+  return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
+}
+
 Preview make_preview(const Image& image, bool keep_alpha) {
   if (image.channels.empty()) throw Error("an image without channels has no preview");
   std::array<const Image::Channel*, 3> rgb{image.find_channel("R"), image.find_channel("G"),

@@ -18,6 +18,9 @@ struct Preview {
 /// sRGB code value (IEC 61966-2-1) of a linear value: clamped to [0, 1], rounded; NaN gives 0.
 uint8_t srgb8_from_linear(float linear);
 
+/// The linear value whose sRGB code value in [0, 1] is `code`.
+float linear_from_srgb(float code);
+
 /// R, G and B of `image` or, failing them, its first channel as grey. `keep_alpha` adds channel A
 /// and divides colours by it; without it (or without A) pixels are as seen over black.
 /// Throws Error for an image without channels.

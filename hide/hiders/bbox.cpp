@@ -63,10 +63,18 @@ class BboxHider final : public Hider {
         const PixelRect pixels = swept_pixels(input, quad, segment.dX != nullptr);
         if (pixels.empty()) continue;
         counters.samples_tested += uint64_t(pixels.pixel_count()) * job.samples_per_pixel;
+        if (!input.tests_per_pixel.empty()) count_tests(input, pixels);
         test_pixel_rect(job, quad, fragments.ids().id(g, 2 * uint32_t(m)), pixels, counts);
       }
     counters.samples_covered += counts.covered;
     counters.nonfinite_dropped += counts.nonfinite;
+  }
+
+  static void count_tests(const HideInput& input, const PixelRect& pixels) {
+    const int width = input.samples->rect.width();
+    for (int y = pixels.y0; y < pixels.y1; ++y)
+      for (int x = pixels.x0; x < pixels.x1; ++x)
+        input.tests_per_pixel[size_t(y * width + x)] += uint32_t(input.samples->samples_per_pixel);
   }
 
   /// Pixels, relative to the bucket's first, that the micropolygon may touch at any time and lens

@@ -112,6 +112,7 @@ TEST_CASE("what is wrong with a command line is said, with exit code 2") {
       {{"render", "s.rib", "--shading", "x"}, "there is"},
       {{"render", "s.rib", "--filter", "x"}, "there is"},
       {{"render", "s.rib", "--aov", "N,x"}, "there is"},
+      {{"render", "s.rib", "--heatmap", "x"}, "no heat map 'x'; there is tests"},
       {{"render", "s.rib", "--crop", "0", "1", "0"}, "--crop"},
       {{"render", "s.rib", "--crop", "0.5", "0.5", "0", "1"}, "X0 < X1"},
       {{"render", "s.rib", "--crop", "0", "1", "0", "2"}, "--crop"},
@@ -138,9 +139,10 @@ TEST_CASE("help names every choice") {
   const TemporaryFolder folder;
   const ProgramResult result = run_tessera({"render", "--help"}, folder);
   CHECK(result.exit_code == 0);
-  for (const char* word : {"--spp", "--shading-rate", "--crop", "--threads", "--hider", "--shading",
-                           "--seed", "--memory", "--stats", "--verbose", "--skip-existing", "bbox",
-                           "shear", "reyes", "gaussian", "motion"}) {
+  for (const char* word :
+       {"--spp", "--shading-rate", "--crop", "--threads", "--hider", "--shading", "--seed",
+        "--memory", "--stats", "--verbose", "--skip-existing", "bbox", "shear", "reyes", "gaussian",
+        "motion", "--heatmap", "interleave", "accumulate"}) {
     CHECK_THAT(result.out, Contains(word));
   }
 }

@@ -53,13 +53,15 @@ struct TestBucket {
     motion |= grid->key_count() > 1;
     grids.push_back(std::move(grid));
   }
-  void make_samples(const PixelRect& rect, int samples_per_pixel, uint32_t seed) {
+  void make_samples(const PixelRect& rect, int samples_per_pixel, uint32_t seed,
+                    const SampleTuples& tuples = {}) {
     lens = camera.lens_open();
     const SamplePattern pattern(samples_per_pixel, seed, lens ? &camera.lens_profile() : nullptr,
-                                motion ? &camera.shutter_profile() : nullptr);
+                                motion ? &camera.shutter_profile() : nullptr, tuples);
     pattern.fill(rect, samples);
   }
-  FragmentList hide(const std::string& hider, HideCounters* counters = nullptr) const {
+  FragmentList hide(const std::string& hider, HideCounters* counters = nullptr,
+                    std::span<uint32_t> tests_per_pixel = {}) const {
     std::vector<HideGrid> hide_grids;
     HideInput input;
     for (size_t g = 0; g < grids.size(); ++g) {
@@ -67,6 +69,7 @@ struct TestBucket {
       input.features.transparency |= !hide_grids.back().opaque;
     }
     input.samples = &samples;
+    input.tests_per_pixel = tests_per_pixel;
     input.grids = hide_grids;
     input.raster_clip = camera.raster_clip();
     input.near_clip = camera.near_clip(), input.far_clip = camera.far_clip();
