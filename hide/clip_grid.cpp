@@ -1,47 +1,116 @@
-#include "hide/clip_grid.h"
-
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "hide/clip_grid.cpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "hide/clip_grid.h"
+
+#ifndef TESSERA_HIDE_KEY_JOB
+#define TESSERA_HIDE_KEY_JOB
 namespace tessera {
+/// The vertices of one motion key: camera space in, raster clip space and camera depth out.
+struct KeyJob {
+  const float *x, *y, *z;
+  float *X, *Y, *W, *depth;
+  size_t count;  ///< a multiple of a vector
+};
+/// Over the vertices of a key.
+struct KeyExtremes {
+  float z_min, z_max;
+  bool usable;  ///< no coordinate is too large or not a number
+};
+}  // namespace tessera
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace tessera {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Every coordinate is rounded after each product, as scalar code does without contraction, so that
+/// all targets see the same vertices.
+KeyExtremes transform(const KeyJob& job, const RasterClipMap& map) {
+  const hn::ScalableTag<float> d;
+  const auto set = [&](float value) HWY_ATTR { return hn::Set(d, value); };
+  auto low = set(std::numeric_limits<float>::infinity()), high = hn::Neg(low);
+  auto usable = hn::Eq(low, low);
+  const auto limit = set(largest_clip_coordinate);
+  for (size_t i = 0; i < job.count; i += hn::Lanes(d)) {
+    const auto z = hn::Load(d, job.z + i);
+    const auto W = hn::Add(hn::Mul(set(map.w_from_z), z), set(map.w_constant));
+    const auto X =
+        hn::Add(hn::Mul(set(map.x_scale), hn::Load(d, job.x + i)), hn::Mul(set(map.x_from_w), W));
+    const auto Y =
+        hn::Add(hn::Mul(set(map.y_scale), hn::Load(d, job.y + i)), hn::Mul(set(map.y_from_w), W));
+    hn::StoreU(X, d, job.X + i), hn::StoreU(Y, d, job.Y + i);
+    hn::StoreU(W, d, job.W + i), hn::StoreU(z, d, job.depth + i);
+    low = hn::Min(low, z), high = hn::Max(high, z);
+    for (const auto v : {X, Y, W, z}) usable = hn::And(usable, hn::Le(hn::Abs(v), limit));
+  }
+  return {hn::GetLane(hn::MinOfLanes(d, low)), hn::GetLane(hn::MaxOfLanes(d, high)),
+          hn::AllTrue(d, usable)};
+}
+
+/// to = after - before, `count` a multiple of a vector.
+void subtract(const float* after, const float* before, float* to, size_t count) {
+  const hn::ScalableTag<float> d;
+  for (size_t i = 0; i < count; i += hn::Lanes(d))
+    hn::StoreU(hn::Sub(hn::LoadU(d, after + i), hn::LoadU(d, before + i)), d, to + i);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace tessera
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace tessera {
+
+HWY_EXPORT(transform);
+HWY_EXPORT(subtract);
 
 void ClipGrid::set(const Grid& grid, const RasterClipMap& map) {
   grid_ = &grid;
   stride_ = grid.stride();
   // A vector more at the end: kernels read whole vectors from any vertex.
   keys_.resize(size_t(grid.key_count()) * 4 * stride_ + simd_padding);
-  for (int key = 0; key < grid.key_count(); ++key) transform_key(key, map);
-  drop_unusable();
-  measure_depth();
+  z_min_ = std::numeric_limits<float>::infinity(), z_max_ = -z_min_;
+  bool usable = true;
+  for (int key = 0; key < grid.key_count(); ++key) usable &= transform_key(key, map);
+  dropped_.clear();
+  dropped_count_ = 0;
+  if (!usable) drop_unusable();
   make_segments();
 }
 
-void ClipGrid::transform_key(int key, const RasterClipMap& map) {
+bool ClipGrid::transform_key(int key, const RasterClipMap& map) {
+  const size_t count = size_t(grid_->vertex_count());
+  // Whole vectors first, then the rest one by one: what pads the grid's arrays may be anything.
+  const size_t whole = count / simd_padding * simd_padding;
   const float *x = grid_->P(key, 0), *y = grid_->P(key, 1), *z = grid_->P(key, 2);
   float *X = axis(key, 0), *Y = axis(key, 1), *W = axis(key, 2), *depth = axis(key, 3);
-  const int count = grid_->vertex_count();
-  for (int i = 0; i < count; ++i) {
+  KeyExtremes e = HWY_DYNAMIC_DISPATCH(transform)({x, y, z, X, Y, W, depth, whole}, map);
+  for (size_t i = whole; i < count; ++i) {
     const float w = map.w_from_z * z[i] + map.w_constant;
     X[i] = map.x_scale * x[i] + map.x_from_w * w;
     Y[i] = map.y_scale * y[i] + map.y_from_w * w;
-    W[i] = w;
-    depth[i] = z[i];
+    W[i] = w, depth[i] = z[i];
+    e.z_min = std::min(e.z_min, z[i]), e.z_max = std::max(e.z_max, z[i]);
+    for (const float v : {X[i], Y[i], W[i], z[i]})
+      e.usable &= std::abs(v) <= largest_clip_coordinate;
   }
   // The padding repeats a vertex, so that whole-vector reads meet nothing odd.
   for (int k = 0; k < 4; ++k)
     std::fill(axis(key, k) + count, axis(key, k) + stride_, axis(key, k)[0]);
+  z_min_ = std::min(z_min_, e.z_min), z_max_ = std::max(z_max_, e.z_max);
+  return e.usable;
 }
 
 void ClipGrid::drop_unusable() {
-  dropped_.clear();
-  dropped_count_ = 0;
   // NaN fails every comparison, so it is found by what is not within the limit.
-  const size_t values = size_t(grid_->key_count()) * 4 * stride_;
-  size_t usable = 0;
-  for (size_t i = 0; i < values; ++i) usable += std::abs(keys_[i]) <= largest_clip_coordinate;
-  if (usable == values) return;
-
   const int count = grid_->vertex_count(), row = grid_->u_count + 1;
   std::vector<uint8_t> bad(stride_, 0);
   for (size_t a = 0; a < size_t(grid_->key_count()) * 4; ++a)
@@ -59,6 +128,7 @@ void ClipGrid::drop_unusable() {
       dropped_[size_t(j * grid_->u_count + i)] = drop;
       dropped_count_ += drop;
     }
+  measure_depth();
 }
 
 void ClipGrid::measure_depth() {
@@ -80,7 +150,8 @@ void ClipGrid::make_segments() {
   }
   deltas_.resize(size_t(count) * 4 * stride_ + simd_padding);
   const size_t step = 4 * stride_;
-  for (size_t i = 0; i < size_t(count) * step; ++i) deltas_[i] = keys_[i + step] - keys_[i];
+  HWY_DYNAMIC_DISPATCH(subtract)
+  (keys_.data() + step, keys_.data(), deltas_.data(), size_t(count) * step);
   for (int k = 0; k < count; ++k) {
     const float begin = grid_->key_times[size_t(k)], end = grid_->key_times[size_t(k) + 1];
     if (!(end > begin)) continue;
@@ -93,3 +164,4 @@ void ClipGrid::make_segments() {
 }
 
 }  // namespace tessera
+#endif

@@ -51,7 +51,8 @@ class ClipGrid {
 
  private:
   float* axis(int key, int k) { return keys_.data() + (size_t(key) * 4 + size_t(k)) * stride_; }
-  void transform_key(int key, const RasterClipMap& map);
+  /// Whether every coordinate of the key is usable.
+  bool transform_key(int key, const RasterClipMap& map);
   void drop_unusable();
   void measure_depth();
   void make_segments();
