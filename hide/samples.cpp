@@ -28,7 +28,7 @@ enum Dimension { x_dimension, y_dimension, u_dimension, v_dimension, t_dimension
 
 /// Sorts the samples of a pixel by time. A power of two of scrambled Sobol coordinates has exactly
 /// one in each of as many equal strata, so each knows its rank at once.
-void order_in_time(const float* t, size_t count, std::vector<uint32_t>& order) {
+void order_ascending(const float* t, size_t count, std::vector<uint32_t>& order) {
   if (std::has_single_bit(count)) {
     for (size_t k = 0; k < count; ++k) order[size_t(t[k] * float(count))] = uint32_t(k);
     return;
@@ -118,6 +118,11 @@ SamplePattern::SamplePattern(int samples_per_pixel, uint32_t seed, const LensPro
       sobol_[size_t(d) * padded(points) + k] = sobol_reversed(d, uint32_t(k));
 }
 
+bool SamplePattern::y_stratified() const {
+  return !warps_.has_lens() && !warps_.has_time() && tuples_.kind == SampleTuples::Kind::free &&
+         std::has_single_bit(uint32_t(samples_per_pixel_));
+}
+
 void SamplePattern::fill(const PixelRect& rect, SampleBlock& block) const {
   block.rect = rect;
   block.samples_per_pixel = samples_per_pixel_;
@@ -125,6 +130,7 @@ void SamplePattern::fill(const PixelRect& rect, SampleBlock& block) const {
   block.x.resize(stored), block.y.resize(stored);
   for (auto* a : {&block.u, &block.v}) a->resize(warps_.has_lens() ? stored : 0);
   block.t.resize(warps_.has_time() ? stored : 0);
+  block.y_stratified = y_stratified();
   block.tuple.assign(tuples_.kind != SampleTuples::Kind::free ? stored : 0, 0);
 
   PixelPoints points;
@@ -174,10 +180,21 @@ void SamplePattern::fill_free(int px, int py, SampleBlock& block, size_t first,
   select_points(seed, points);
   const uint32_t* const* sobol = points.sobol;
   const auto dimension_seed = [&](uint32_t d) { return seed_of_dimension(seed, d); };
+  if (y_stratified()) {
+    auto& c = points.coordinate;
+    scramble_positions(sobol[0], count, dimension_seed(0), float(px), c[x_dimension].data());
+    scramble_points(sobol[1], count, dimension_seed(1), c[t_dimension].data());
+    order_ascending(c[t_dimension].data(), count, points.order);
+    scramble_positions(sobol[1], count, dimension_seed(1), float(py), c[y_dimension].data());
+    for (size_t k = 0; k < count; ++k) {
+      block.x[first + k] = c[x_dimension][points.order[k]];
+      block.y[first + k] = c[y_dimension][points.order[k]];
+    }
+    return;
+  }
   if (!warps_.has_time()) {  // no order to keep: straight into the block
     scramble_positions(sobol[0], count, dimension_seed(0), float(px), block.x.data() + first);
     scramble_positions(sobol[1], count, dimension_seed(1), float(py), block.y.data() + first);
-    if (!warps_.has_lens()) return;
     float *u = block.u.data() + first, *v = block.v.data() + first;
     scramble_points(sobol[2], count, dimension_seed(2), u);
     scramble_points(sobol[3], count, dimension_seed(3), v);
@@ -193,7 +210,7 @@ void SamplePattern::fill_free(int px, int py, SampleBlock& block, size_t first,
     warps_.lens(c[u_dimension].data(), c[v_dimension].data(), count);
   }
   scramble_points(sobol[4], count, dimension_seed(4), c[t_dimension].data());
-  order_in_time(c[t_dimension].data(), count, points.order);
+  order_ascending(c[t_dimension].data(), count, points.order);
   warps_.time(c[t_dimension].data(), count);
   store_in_order(points, count, block, first);
 }
@@ -256,7 +273,7 @@ void SamplePattern::fill_lines(int px, int py, SampleBlock& block, size_t first,
   }
   if (warps_.has_time()) {
     scramble_points(points.sobol[4], count, seed_of_dimension(seed, 4), c[t_dimension].data());
-    order_in_time(c[t_dimension].data(), count, points.order);
+    order_ascending(c[t_dimension].data(), count, points.order);
     warps_.time(c[t_dimension].data(), count);
   } else {
     std::iota(points.order.begin(), points.order.end(), 0u);

@@ -25,8 +25,13 @@ struct SampleBlock {
   AlignedVector<float>
       t;  ///< shutter time in [0, 1], ascending within a pixel; empty if nothing moves
 
-  /// Its tuple, numbered in order of time, or its line; 0 in the padding. Empty if samples are free.
+  /// Its tuple, numbered in order of time, or its line; 0 in the padding. Empty if samples are
+  /// free.
   AlignedVector<uint32_t> tuple;
+  /// With neither lens nor time and a power of two of samples a pixel: sample k of each pixel lies
+  /// in the k-th of samples_per_pixel equal strips of y, so that an interval of y is a run of
+  /// samples.
+  bool y_stratified = false;
 
   size_t size() const { return size_t(rect.pixel_count()) * size_t(samples_per_pixel); }
 };
@@ -88,6 +93,7 @@ class SamplePattern {
   void fill(const PixelRect& rect, SampleBlock& block) const;
 
  private:
+  bool y_stratified() const;
   void fill_pixel(int x, int y, SampleBlock& block, size_t first, struct PixelPoints& points) const;
   void select_points(uint32_t pixel_seed, PixelPoints& points) const;
   void fill_free(int x, int y, SampleBlock& block, size_t first, PixelPoints& points) const;

@@ -62,8 +62,8 @@ HWY_INLINE void store_sorted(const Hit& hit, size_t k, uint32_t id0, CellSamples
 
 /// Tests the sorted candidates [begin, end) against one micropolygon.
 template <bool kMotion, bool kLens, bool kOpaque>
-HWY_INLINE void test_run(const BlurredGridJob& job, const Quad& quad, uint32_t id, size_t begin,
-                         size_t end, CellSamples& c, CoverageCounts& counts) {
+HWY_INLINE void test_sorted(const BlurredGridJob& job, const Quad& quad, uint32_t id, size_t begin,
+                            size_t end, CellSamples& c, CoverageCounts& counts) {
   const SampleArrays samples = c.samples();
   for (size_t k = begin; k < end; k += hn::Lanes(FloatTag())) {
     const SampleVec s = load_samples<kMotion, kLens>(samples, k);
@@ -110,9 +110,9 @@ uint64_t test_cells(const ShearedGridJob& job, const ShearedBlock& sheared,
       const Quad quad = load_quad(*blur.segment, u_count, i, j);
       for (int row = boxes.row0[k]; row <= boxes.row1[k]; ++row) {
         const uint32_t* cells = end + row * lattice.columns;
-        test_run<kMotion, kLens, kOpaque>(blur, quad, blur.id0 + 2 * uint32_t(m),
-                                          cells[boxes.column0[k]], cells[boxes.column1[k] + 1], c,
-                                          counts);
+        test_sorted<kMotion, kLens, kOpaque>(blur, quad, blur.id0 + 2 * uint32_t(m),
+                                             cells[boxes.column0[k]], cells[boxes.column1[k] + 1],
+                                             c, counts);
       }
     }
   }

@@ -10,15 +10,18 @@ namespace tessera {
 struct PixelBoxes {
   AlignedVector<float> x, y;      ///< [vertex] raster position relative to the bucket's first pixel
   AlignedVector<uint32_t> index;  ///< [box] micropolygon
-  AlignedVector<uint32_t> columns, rows;  ///< [box] first pixel, and the last << 16
+  AlignedVector<uint32_t> columns;  ///< [box] first column of pixels, and the last << 16
+  AlignedVector<uint32_t> rows;     ///< [box] first row of strips, and the last << 16
   size_t count = 0;
 };
 
 struct StaticGridJob {
   PixelTestJob test;
   const ClipGrid* clip = nullptr;
-  PixelRect rect;    ///< the bucket
-  uint32_t id0 = 0;  ///< of the grid's first triangle
+  PixelRect rect;             ///< the bucket
+  uint32_t id0 = 0;           ///< of the grid's first triangle
+  bool y_stratified = false;  ///< as SampleBlock has it
+  int strips_per_pixel = 1;   ///< set by hide_static_grid; rows of boxes are this much finer
   const TileDepth* depth = nullptr;
   PixelBoxes* boxes = nullptr;
   HideCounters* counters = nullptr;

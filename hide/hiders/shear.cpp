@@ -71,6 +71,7 @@ class ShearHider final : public Hider {
     job.clip = &buffers.clip;
     job.rect = input.samples->rect;
     job.id0 = buffers.fragments.ids().id(g, 0);
+    job.y_stratified = input.samples->y_stratified;
     job.depth = &buffers.depth;
     job.boxes = &buffers.boxes;
     job.counters = &counters;
