@@ -1,4 +1,4 @@
-/// The hiders that others are compared with: pixar.
+/// The hiders that others are compared with: pixar and dual.
 
 #include <catch2/catch.hpp>
 
@@ -29,13 +29,17 @@ TEST_CASE("One stratum of the whole lens and shutter tests what bbox tests") {
 
 TEST_CASE("Bad arguments of the baseline hiders are refused") {
   for (const char* spec :
-       {"pixar:0x1x1", "pixar:1x0x1", "pixar:1x1x0", "pixar:65x1x1", "pixar:1x1x65", "pixar:-1x1x1",
-        "pixar:2", "pixar:2x2", "pixar:2x2x", "pixar:2x2x4x", "pixar:2x2x4x1", "pixar:2x2x4 ",
-        "pixar:axbxc", "pixar:2.5x1x1", "pixar:64x64x64", "pixar:99999999999x1x1"}) {
+       {"pixar:0x1x1",  "pixar:1x0x1",   "pixar:1x1x0",    "pixar:65x1x1",
+        "pixar:1x1x65", "pixar:-1x1x1",  "pixar:2",        "pixar:2x2",
+        "pixar:2x2x",   "pixar:2x2x4x",  "pixar:2x2x4x1",  "pixar:2x2x4 ",
+        "pixar:axbxc",  "pixar:2.5x1x1", "pixar:64x64x64", "pixar:99999999999x1x1",
+        "dual:0",       "dual:65",       "dual:-1",        "dual:x",
+        "dual:2.5",     "dual:2x2",      "dual: 1"}) {
     INFO(spec);
     REQUIRE_THROWS_AS(make_hider(spec), Error);
   }
-  for (const char* spec : {"pixar", "pixar:", "pixar:1x1x64", "pixar:8x8x64"})
+  for (const char* spec :
+       {"pixar", "pixar:", "pixar:1x1x64", "pixar:8x8x64", "dual", "dual:", "dual:64"})
     REQUIRE_NOTHROW(make_hider(spec));
 }
 
@@ -44,7 +48,7 @@ TEST_CASE("Tests are counted for each pixel if somebody asks") {
     for (const bool lens : {false, true}) {
       TestBucket bucket =
           random_bucket(12, {.motion = motion, .lens = lens}, {16, 8, 45, 38}, 7, 20);
-      for (const char* hider : {"bbox", "pixar:1x1x1", "pixar:2x2x4"}) {
+      for (const char* hider : {"bbox", "pixar:1x1x1", "pixar:2x2x4", "dual", "dual:3"}) {
         INFO(hider << " motion " << motion << " lens " << lens);
         HideCounters quiet, counted;
         bucket.hide(hider, &quiet);
