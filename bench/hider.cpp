@@ -3,78 +3,14 @@
 /// vertices; building its acceleration structure is part of its time, as clipping space, bounds and
 /// lists of grids are part of ours. Making the samples is part of neither.
 
-#include <algorithm>
-#include <bit>
-
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
-
 #include "base/error.h"
 #include "bench/harness/benchmark.h"
 #include "bench/hider_embree.h"
+#include "bench/hider_frame.h"
 #include "bench/hider_scene.h"
-#include "hide/hide.h"
 
 namespace tessera {
 namespace {
-
-class TesseraFrame {
- public:
-  TesseraFrame(const HiderScene& scene, const char* hider)
-      : scene_(scene), hider_(make_hider(hider)), locals_([this] {
-          return Local{hider_->make_scratch(), {}, {}};
-        }) {}
-
-  HideCounters render() {
-    std::vector<std::vector<HideGrid>> grids = grids_of_buckets();
-    for (Local& local : locals_) local.counters = {};
-    tbb::parallel_for(size_t(0), grids.size(), [&](size_t b) {
-      Local& local = locals_.local();
-      HideInput input;
-      input.samples = &scene_.buckets[b];
-      input.grids = grids[b];
-      input.raster_clip = scene_.camera.raster_clip();
-      input.near_clip = scene_.camera.near_clip(), input.far_clip = scene_.camera.far_clip();
-      input.lens_extent = scene_.camera.lens_profile().extent();
-      input.features = {scene_.motion, scene_.lens, false};
-      hider_->hide(input, *local.scratch, local.fragments, local.counters);
-    });
-    HideCounters total;
-    for (const Local& local : locals_) merge_counters(total, local.counters);
-    return total;
-  }
-
- private:
-  struct Local {
-    std::unique_ptr<Hider::Scratch> scratch;
-    FragmentList fragments;
-    HideCounters counters;
-  };
-
-  /// Nearest first, as a grid source gives them.
-  std::vector<std::vector<HideGrid>> grids_of_buckets() const {
-    std::vector<const Grid*> ordered;
-    for (const auto& grid : scene_.grids) ordered.push_back(grid.get());
-    std::stable_sort(ordered.begin(), ordered.end(),
-                     [](const Grid* a, const Grid* b) { return a->z_min < b->z_min; });
-    std::vector<std::vector<HideGrid>> result(scene_.buckets.size());
-    const int columns = scene_.bucket_columns, rows = int(result.size()) / columns;
-    const auto bucket_at = [](float position, int count) {
-      return int(std::clamp(position / HiderScene::bucket_size, 0.0f, float(count - 1)));
-    };
-    for (const Grid* grid : ordered) {
-      const RasterBounds& r = grid->raster_bounds;
-      for (int j = bucket_at(r.y_min, rows); j <= bucket_at(r.y_max, rows); ++j)
-        for (int i = bucket_at(r.x_min, columns); i <= bucket_at(r.x_max, columns); ++i)
-          result[size_t(j * columns + i)].push_back({grid, true});
-    }
-    return result;
-  }
-
-  const HiderScene& scene_;
-  std::unique_ptr<Hider> hider_;
-  tbb::enumerable_thread_specific<Local> locals_;
-};
 
 /// The fastest way to use Embree in this case, by trying each once.
 EmbreeVariant best_variant(EmbreeFrame& embree) {
@@ -94,7 +30,13 @@ void run_case(BenchmarkContext& context, const char* name, double motion_pixels,
               double coc_pixels) {
   const int width = context.scaled(960, 480), height = context.scaled(540, 270);
   const HiderScene scene(width, height, 16, motion_pixels, coc_pixels);
-  TesseraFrame tessera(scene, "shear");
+  HiderFrame tessera({scene.camera,
+                      scene.grids,
+                      scene.buckets,
+                      scene.bucket_columns,
+                      HiderScene::bucket_size,
+                      {scene.motion, scene.lens, false}},
+                     "shear");
   EmbreeFrame embree(scene);
   const EmbreeVariant variant = best_variant(embree);
   HideCounters counters;

@@ -46,6 +46,7 @@ struct TestBucket {
   std::vector<bool> opaque;  ///< empty: all
   SampleBlock samples;
   bool motion = false, lens = false;
+  mutable std::vector<uint32_t> tests_per_pixel;  ///< sized: hide() adds to it
 
   explicit TestBucket(const CameraSettings& settings) : camera(settings) {}
 
@@ -75,6 +76,7 @@ struct TestBucket {
     input.near_clip = camera.near_clip(), input.far_clip = camera.far_clip();
     input.lens_extent = camera.lens_profile().extent();
     input.features.motion = motion, input.features.lens = lens;
+    input.tests_per_pixel = tests_per_pixel;
     const auto made = make_hider(hider);
     const auto scratch = made->make_scratch();
     HideCounters local;

@@ -1,0 +1,154 @@
+/// Sample test efficiency (samples covered over samples tested, in percent) of the hiders as motion
+/// and defocus grow: Table 1 of Laine et al., "Clipless Dual-Space Bounds for Faster Stochastic
+/// Rasterization", 2011, on scenes of our own. Strata are as in its section 4: in t alone, in (u,
+/// v) alone, or in both, as many as there are samples in a pixel. Micropolygons are the
+/// primitives. Grids come farthest first, so that all methods test all of them, whether they cull
+/// by depth or not.
+
+#include <string>
+#include <type_traits>
+
+#include "base/error.h"
+#include "bench/harness/benchmark.h"
+#include "bench/hider_frame.h"
+#include "bench/ste_scenes.h"
+
+namespace tessera {
+namespace {
+
+constexpr int bucket_size = 64, usual_spp = 16;
+
+/// One column of the table: a hider and the number of samples a pixel it is measured at.
+struct Method {
+  std::string column, hider;
+  int spp = usual_spp;
+};
+
+std::string strata(const SteScene& scene, int spp) {
+  const int side = spp == 4 ? 2 : spp == 16 ? 4 : 8;
+  if (scene.moves() && scene.lens()) return spp == 4 ? "2x2x1" : spp == 16 ? "2x2x4" : "4x4x4";
+  if (scene.moves()) return fmt::format("1x1x{}", spp);
+  return scene.lens() ? fmt::format("{0}x{0}x1", side) : "1x1x1";
+}
+
+bool hider_exists(const std::string& spec) {
+  for (const HiderDefinition& definition : hider_registry())
+    if (spec.substr(0, spec.find(':')) == definition.name) return true;
+  return false;
+}
+
+/// Those of the table whose hiders this program has; methods on the same samples side by side.
+std::vector<Method> methods(const SteScene& scene) {
+  std::vector<Method> all{{"bbox", "bbox"},
+                          {"pixar_16", "pixar:" + strata(scene, 16)},
+                          {"dual_1", "dual:1"},
+                          {"dual_2", "dual:2"},
+                          {"shear", "shear"},
+                          {"tct", "tct"},
+                          {"interleave", "interleave:64"}};
+  for (const int spp : {4, 64})
+    all.push_back({fmt::format("pixar_{}", spp), "pixar:" + strata(scene, spp), spp});
+  std::erase_if(all, [](const Method& m) { return !hider_exists(m.hider); });
+  return all;
+}
+
+/// A pattern with the samples a hider asks for, where patterns can make more than one kind.
+template <class Pattern>
+Pattern make_pattern(int spp, const LensProfile* lens, const ShutterProfile* shutter,
+                     const SampleTuples& tuples) {
+  if constexpr (std::is_constructible_v<Pattern, int, uint32_t, const LensProfile*,
+                                        const ShutterProfile*, const SampleTuples&>) {
+    return Pattern(spp, 1, lens, shutter, tuples);
+  } else {
+    if (tuples.kind != SampleTuples::Kind::free)
+      throw Error("a hider asks for samples on tuples; expected one that takes any");
+    return Pattern(spp, 1, lens, shutter);
+  }
+}
+
+/// The samples of a frame, remade only when another kind or number is wanted.
+class FrameSamples {
+ public:
+  const std::vector<SampleBlock>& get(const SteScene& scene, int spp, const SampleTuples& tuples) {
+    if (spp == spp_ && tuples == tuples_) return blocks_;
+    const auto pattern = make_pattern<SamplePattern>(
+        spp, scene.lens() ? &scene.camera.lens_profile() : nullptr,
+        scene.moves() ? &scene.camera.shutter_profile() : nullptr, tuples);
+    const PixelRect frame = scene.camera.frame();
+    blocks_.clear();
+    std::vector<PixelRect> rects;
+    for (int y = 0; y < frame.y1; y += bucket_size)
+      for (int x = 0; x < frame.x1; x += bucket_size)
+        rects.push_back(PixelRect{x, y, x + bucket_size, y + bucket_size}.intersect(frame));
+    blocks_.resize(rects.size());
+    tbb::parallel_for(size_t(0), rects.size(),
+                      [&](size_t b) { pattern.fill(rects[b], blocks_[b]); });
+    spp_ = spp, tuples_ = tuples;
+    return blocks_;
+  }
+
+ private:
+  std::vector<SampleBlock> blocks_;
+  int spp_ = 0;
+  SampleTuples tuples_;
+};
+
+void run_case(BenchmarkContext& context, const std::string& name, const SteScene& scene) {
+  BenchmarkContext::Columns columns, work;
+  FrameSamples samples;
+  const int bucket_columns = (scene.camera.frame().width() + bucket_size - 1) / bucket_size;
+  for (const Method& m : methods(scene)) {
+    const SampleTuples tuples = make_hider(m.hider)->sample_tuples(m.spp);
+    HiderFrame frame({scene.camera,
+                      scene.grids,
+                      samples.get(scene, m.spp, tuples),
+                      bucket_columns,
+                      bucket_size,
+                      {scene.moves(), scene.lens(), false},
+                      false},
+                     m.hider);
+    HideCounters counters;
+    const double seconds = seconds_of([&] { counters = frame.render(); });
+    columns.emplace_back(m.column,
+                         100 * double(counters.samples_covered) / double(counters.samples_tested));
+    if (m.spp != usual_spp) continue;
+    work.emplace_back(m.column + "_tests", double(counters.samples_tested));
+    work.emplace_back(m.column + "_tiles", double(counters.tiles_visited));
+    work.emplace_back(m.column + "_s", seconds);
+  }
+  columns.emplace_back("micropolygons", double(scene.micropolygon_count()));
+  columns.emplace_back("triangle_px", scene.mean_triangle_pixels());
+  columns.insert(columns.end(), work.begin(), work.end());
+  context.add_row(name, columns);
+}
+
+struct Variant {
+  const char* name;
+  SteEffects effects;
+};
+
+constexpr Variant variants[] = {{"static", {0, 0}},  {"motion", {1, 0}},     {"motion_x2", {2, 0}},
+                                {"defocus", {0, 1}}, {"defocus_x2", {0, 2}}, {"both", {1, 1}},
+                                {"both_x2", {2, 2}}};
+
+void run(BenchmarkContext& context) {
+  const int width = context.scaled(960, 480), height = context.scaled(540, 270);
+  const int cars = context.scaled(8, 2), walls = context.scaled(36, 12);
+  for (const char* scene : {"walls", "court", "cars"})
+    for (const Variant& variant : variants) {
+      const std::string name = scene;
+      const auto made = name == "walls"   ? make_walls(width, height, variant.effects, walls)
+                        : name == "court" ? make_court(width, height, variant.effects)
+                                          : make_cars(width, height, variant.effects, cars);
+      run_case(context, name + "/" + variant.name, *made);
+    }
+}
+
+}  // namespace
+
+BenchmarkDefinition benchmark_ste() {
+  return {"ste", "sample test efficiency of the hiders as motion and defocus grow, in percent",
+          run};
+}
+
+}  // namespace tessera
