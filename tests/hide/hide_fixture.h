@@ -59,7 +59,8 @@ struct TestBucket {
                                 motion ? &camera.shutter_profile() : nullptr);
     pattern.fill(rect, samples);
   }
-  FragmentList hide(const std::string& hider, HideCounters* counters = nullptr) const {
+  FragmentList hide(const std::string& hider, HideCounters* counters = nullptr,
+                    std::span<uint32_t> tests_per_pixel = {}) const {
     std::vector<HideGrid> hide_grids;
     HideInput input;
     for (size_t g = 0; g < grids.size(); ++g) {
@@ -72,6 +73,7 @@ struct TestBucket {
     input.near_clip = camera.near_clip(), input.far_clip = camera.far_clip();
     input.lens_extent = camera.lens_profile().extent();
     input.features.motion = motion, input.features.lens = lens;
+    input.tests_per_pixel = tests_per_pixel;
     const auto made = make_hider(hider);
     const auto scratch = made->make_scratch();
     HideCounters local;
