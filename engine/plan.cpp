@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "hide/hide.h"
 #include "shade/shade.h"
 
 namespace tessera {
@@ -109,6 +110,7 @@ FramePlan make_plan(const Scene& scene, const CameraSettings& camera, const Sett
   plan.grid_size =
       checked("grid size", settings.grid_size.value_or(plan.grid_size), 1, max_grid_size);
   if (settings.hider) plan.hider = *settings.hider;
+  plan.sample_tuples = make_hider(plan.hider)->sample_tuples(plan.samples_per_pixel);
   if (settings.shading) plan.shading = *settings.shading;
   plan.filter_x_width = options.filter_x_width;
   plan.filter_y_width = options.filter_y_width;
@@ -130,6 +132,7 @@ std::vector<std::pair<std::string, std::string>> FramePlan::entries() const {
           {"bucket_size", std::to_string(bucket_size)},
           {"grid_size", std::to_string(grid_size)},
           {"hider", hider},
+          {"samples", to_string(sample_tuples)},
           {"shading", shading},
           {"filter", fmt::format("{}:{}x{}", filter, filter_x_width, filter_y_width)},
           {"channels", fmt::format("{}", fmt::join(channel_groups, " "))}};

@@ -8,6 +8,7 @@
 
 #include "cameras/camera_settings.h"
 #include "engine/settings.h"
+#include "hide/samples.h"
 #include "scenes/scene.h"
 
 namespace tessera {
@@ -15,13 +16,13 @@ namespace tessera {
 class ShaderBindings;
 
 struct FramePlan {
-  bool motion = false;         ///< camera or some surface moves while the shutter is open
-  bool lens = false;           ///< the lens is open
-  bool transparency = false;   ///< some surface may let others show through
-  bool displacement = false;   ///< some surface has a displacement shader
-  bool textures = false;       ///< some shader names a texture: the image library is loaded
-  bool area_lights = false;    ///< some light has extent (kept, not yet used)
-  bool ray_tracing = false;    ///< some shader traces rays (none does yet)
+  bool motion = false;        ///< camera or some surface moves while the shutter is open
+  bool lens = false;          ///< the lens is open
+  bool transparency = false;  ///< some surface may let others show through
+  bool displacement = false;  ///< some surface has a displacement shader
+  bool textures = false;      ///< some shader names a texture: the image library is loaded
+  bool area_lights = false;   ///< some light has extent (kept, not yet used)
+  bool ray_tracing = false;   ///< some shader traces rays (none does yet)
 
   int samples_per_pixel = 16;
   int bucket_size = 32;
@@ -30,6 +31,7 @@ struct FramePlan {
   std::string filter = "gaussian";
   float filter_x_width = 2, filter_y_width = 2;
   std::vector<std::string> channel_groups;  ///< AOVs to compute
+  SampleTuples sample_tuples;               ///< what the hider wants of the samples
 
   /// (name, value) of every entry, for printing and for the statistics.
   std::vector<std::pair<std::string, std::string>> entries() const;

@@ -2,12 +2,14 @@
 /// Where a bucket looks: points (x, y, u, v, t), Owen-scrambled Sobol in all five dimensions.
 
 #include <cstdint>
+#include <string>
 #include <vector>
+
+#include <glm/glm.hpp>
 
 #include "base/aligned.h"
 #include "base/raster.h"
-#include "cameras/lens_profile.h"
-#include "cameras/shutter_profile.h"
+#include "hide/sample_warps.h"
 
 namespace tessera {
 
@@ -23,18 +25,20 @@ struct SampleBlock {
   AlignedVector<float>
       t;  ///< shutter time in [0, 1], ascending within a pixel; empty if nothing moves
 
-  AlignedVector<uint32_t> tuple;  ///< which tuple or line a sample is on; empty if they are free
+  /// [sample] its tuple, numbered in order of time, or its line; empty if samples are free.
+  AlignedVector<uint32_t> tuple;
 
   size_t size() const { return size_t(rect.pixel_count()) * size_t(samples_per_pixel); }
 };
 
 /// Samples whose time and lens position come from a few fixed tuples, or from lines across the
-/// lens: what hiders need that rasterise once for each of them.
+/// lens: what hiders need that rasterise once for each of them. What a frame has no use for (lens,
+/// time) is absent from the tuples too.
 struct SampleTuples {
   enum class Kind {
     free,         ///< anywhere in (u, v, t)
     interleaved,  ///< `count` tuples (u, v, t), permuted over the samples of each tile of 2 x 2
-                  ///< pixels
+                  ///< pixels that starts at even coordinates
     accumulated,  ///< `count` tuples (x, y, u, v, t), the same in every pixel
     lens_lines,   ///< (u, v) anywhere on one of `count` lines through the lens centre; t free
   };
@@ -43,28 +47,60 @@ struct SampleTuples {
   bool operator==(const SampleTuples&) const = default;
 };
 
+/// "free", "interleaved:64", ...
+std::string to_string(const SampleTuples& tuples);
+
+/// Unit vector along a lens line, at pi * line / count from the u axis towards v. Samples on it are
+/// at s times this, |s| at most the lens extent.
+glm::vec2 lens_line_direction(int line, int count);
+
+/// The tuples of a frame.
+struct TupleTable {
+  AlignedVector<float> x, y;  ///< [tuple] position in the pixel, [0, 1); empty unless accumulated
+  AlignedVector<float> u, v, t;  ///< [tuple] as in SampleBlock; empty without lens or motion
+  std::vector<uint32_t> number;  ///< [point of the Sobol sequence] its tuple
+};
+
 /// Makes the samples of any pixel: a function of (pixel, seed) alone, whatever the bucket.
+///
+/// Interleaved tuples are Sobol points in (u, v, t), scrambled by the frame's seed; a tile of 2 x 2
+/// pixels takes each 4 * samples_per_pixel / count times (InterleaveUVT of Fatahalian et al. 2009,
+/// as in Laine et al. 2011, section 2). The shuffle of a tile keeps aligned blocks of the sequence
+/// together, so that with powers of two the tuples of each pixel are stratified as well. Each
+/// accumulated tuple (an accumulation buffer) is taken samples_per_pixel / count times in each
+/// pixel.
+///
+/// Each lens line has samples_per_pixel / count samples in each pixel, or as near as can be; which
+/// lines have one more varies from pixel to pixel. They are stratified along the line with a
+/// density proportional to the distance from the centre, so that all lines together sample the disc
+/// of radius LensProfile::extent() uniformly by area. Profiles of another shape or density are
+/// replaced by that disc.
 class SamplePattern {
  public:
   /// Null profiles switch the lens or time dimensions off; they must outlive the pattern.
-  /// Throws Error unless 1 <= samples_per_pixel <= 65536.
+  /// Throws Error unless 1 <= samples_per_pixel <= 65536 and the tuples come out even.
   SamplePattern(int samples_per_pixel, uint32_t seed, const LensProfile* lens,
-                const ShutterProfile* shutter);
+                const ShutterProfile* shutter, SampleTuples tuples = {});
 
   int samples_per_pixel() const { return samples_per_pixel_; }
+  const SampleTuples& tuples() const { return tuples_; }
   /// Fills `block` (reusing its storage) with the samples of the pixels of `rect`.
   void fill(const PixelRect& rect, SampleBlock& block) const;
 
  private:
   void fill_pixel(int x, int y, SampleBlock& block, size_t first, struct PixelPoints& points) const;
-  void warp_lens(float* u, float* v, size_t count) const;
+  void select_points(uint32_t pixel_seed, PixelPoints& points) const;
+  void fill_free(int x, int y, SampleBlock& block, size_t first, PixelPoints& points) const;
+  void fill_tuples(int x, int y, SampleBlock& block, size_t first, PixelPoints& points) const;
+  void fill_lines(int x, int y, SampleBlock& block, size_t first, PixelPoints& points) const;
 
   int samples_per_pixel_;
   uint32_t seed_;
-  const LensProfile* lens_;
-  const ShutterProfile* shutter_;
+  SampleWarps warps_;
+  SampleTuples tuples_;
+  TupleTable table_;
+  std::vector<glm::vec2> line_;    // [line] direction times the lens extent
   int index_bits_;                 // of the smallest power of two >= samples_per_pixel
-  bool disc_lens_, box_shutter_;   // the common profiles, mapped without a virtual call a sample
   AlignedVector<uint32_t> sobol_;  // [dimension][index], digits reversed as in sobol.h
 };
 

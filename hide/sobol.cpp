@@ -14,12 +14,6 @@ struct Direction {
 constexpr Direction directions[] = {
     {1, 0, {1, 0, 0}}, {2, 1, {1, 3, 0}}, {3, 1, {1, 3, 1}}, {3, 2, {1, 1, 1}}};
 
-constexpr uint32_t reverse_bits(uint32_t x) {
-  uint32_t r = 0;
-  for (int i = 0; i < 32; ++i) r |= (x >> i & 1u) << (31 - i);
-  return r;
-}
-
 /// Direction numbers by the recurrence of Bratley and Fox, "Algorithm 659", ACM TOMS 14, 1988.
 constexpr SobolMatrix make_matrix(const Direction& d) {
   std::array<uint32_t, sobol_index_bits> v{};

@@ -7,6 +7,7 @@
 /// Hash-based Owen Scrambling", JCGT 9(4), 2020.
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -28,6 +29,14 @@ inline uint32_t sobol_reversed(int dimension, uint32_t index) {
   return digits;
 }
 
+constexpr uint32_t reverse_bits(uint32_t x) {
+  x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+  x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+  x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+  x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
+  return x >> 16 | x << 16;
+}
+
 /// Nested uniform scramble of reversed digits: bit k of the result is bit k of `x`, flipped by a
 /// hash of the bits below k and the seed. Multiplying by even numbers before the xor, and by odd
 /// ones otherwise, keeps that triangular form; the constants are N. Vegdahl's.
@@ -38,6 +47,23 @@ constexpr uint32_t owen_scramble_reversed(uint32_t x, uint32_t seed) {
   x ^= x * 0x05526c56u;
   x ^= x * 0x53a22864u;
   return x;
+}
+
+/// A permutation of [0, 2^bits) that maps aligned blocks of a power of two to such blocks: nested
+/// uniform scrambling of the index, whose own digits are reversed for that.
+constexpr uint32_t shuffled_index(uint32_t index, int bits, uint32_t seed) {
+  if (bits == 0) return 0;
+  const uint32_t reversed = reverse_bits(index) >> (32 - bits);
+  return reverse_bits(owen_scramble_reversed(reversed, seed)) >> (32 - bits);
+}
+
+/// A permutation of [0, count): shuffled_index() over the next power of two, applied again as long
+/// as it leaves the range.
+constexpr uint32_t permuted_index(uint32_t index, uint32_t count, uint32_t seed) {
+  const int bits = std::bit_width(count - 1);
+  do index = shuffled_index(index, bits, seed);
+  while (index >= count);
+  return index;
 }
 
 }  // namespace tessera

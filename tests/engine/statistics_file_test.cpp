@@ -37,5 +37,6 @@ TEST_CASE("statistics are complete and consistent") {
   CHECK(json["plan"]["motion"] == "yes");
   CHECK(json["plan"]["lens"] == "yes");
   CHECK(json["plan"]["textures"] == "no");
+  CHECK(json["plan"]["samples"] == "free");
   CHECK(json["warnings"].size() == 1);
 }

@@ -53,10 +53,11 @@ struct TestBucket {
     motion |= grid->key_count() > 1;
     grids.push_back(std::move(grid));
   }
-  void make_samples(const PixelRect& rect, int samples_per_pixel, uint32_t seed) {
+  void make_samples(const PixelRect& rect, int samples_per_pixel, uint32_t seed,
+                    const SampleTuples& tuples = {}) {
     lens = camera.lens_open();
     const SamplePattern pattern(samples_per_pixel, seed, lens ? &camera.lens_profile() : nullptr,
-                                motion ? &camera.shutter_profile() : nullptr);
+                                motion ? &camera.shutter_profile() : nullptr, tuples);
     pattern.fill(rect, samples);
   }
   FragmentList hide(const std::string& hider, HideCounters* counters = nullptr,
