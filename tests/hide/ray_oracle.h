@@ -93,6 +93,16 @@ struct Sighting {
   Real z_error = 0;  ///< what a hider's depth may be off by
 };
 
+/// True if the sample is to one side of all corners along x or along y whatever is rounded: no
+/// weights >= 0 then make sum(l_k dx_k) = sum(l_k dy_k) = 0, which is to be on the triangle.
+inline bool surely_beside(const std::array<SeenCorner, 3>& c) {
+  const auto all = [&](auto&& test) { return test(c[0]) && test(c[1]) && test(c[2]); };
+  return all([](const SeenCorner& k) { return k.dx > k.dx_error; }) ||
+         all([](const SeenCorner& k) { return k.dx < -k.dx_error; }) ||
+         all([](const SeenCorner& k) { return k.dy > k.dy_error; }) ||
+         all([](const SeenCorner& k) { return k.dy < -k.dy_error; });
+}
+
 /// From the corners' errors: can the edge functions' signs be other than the ray's answer, and by
 /// how much can the depth be off?
 inline void judge_rounding(const std::array<SeenCorner, 3>& c, Sighting& s) {
@@ -113,7 +123,7 @@ inline void judge_rounding(const std::array<SeenCorner, 3>& c, Sighting& s) {
     sure &= std::abs(e[k]) > error[k];
     z_error += error[k] * std::abs(c[size_t(k)].z - s.z);
   }
-  s.doubtful = !(above && below) && !(sure && std::abs(sum) > sum_error);
+  s.doubtful = !surely_beside(c) && !(above && below) && !(sure && std::abs(sum) > sum_error);
   const Real rest = std::abs(sum) - sum_error;
   s.z_error = rest > 0 ? z_error / rest : INFINITY;
   s.z_error += std::max({c[0].z_error, c[1].z_error, c[2].z_error});
