@@ -69,12 +69,12 @@ struct TestBucket {
       input.features.transparency |= !hide_grids.back().opaque;
     }
     input.samples = &samples;
+    input.tests_per_pixel = tests_per_pixel;
     input.grids = hide_grids;
     input.raster_clip = camera.raster_clip();
     input.near_clip = camera.near_clip(), input.far_clip = camera.far_clip();
     input.lens_extent = camera.lens_profile().extent();
     input.features.motion = motion, input.features.lens = lens;
-    input.tests_per_pixel = tests_per_pixel;
     const auto made = make_hider(hider);
     const auto scratch = made->make_scratch();
     HideCounters local;
