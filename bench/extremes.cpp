@@ -9,7 +9,9 @@ namespace {
 
 void run(BenchmarkContext& context) {
   for (const ExtremeCase& extreme : extreme_cases()) {
-    const ExtremeTally t = tally_extremes(extreme, "shear", "bbox", context.scaled(10, 1));
+    const ExtremeRun what{
+        .hiders = {"shear"}, .other = "bbox", .tuples = {}, .rounds = context.scaled(10, 1)};
+    const ExtremeTally t = tally_extremes(extreme, what).front();
     context.add_row(extreme.name, {{"samples", double(t.samples)},
                                    {"oracle_hits", double(t.oracle_hits)},
                                    {"doubtful", double(t.doubtful)},

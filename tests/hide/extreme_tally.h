@@ -31,27 +31,50 @@ inline size_t count_differences(const FragmentList& a, const FragmentList& b) {
   return count;
 }
 
-/// `hider` against the rays, and if `other` is not null against that hider, on `rounds` rounds of
-/// variants.
-inline ExtremeTally tally_extremes(const ExtremeCase& extreme, const char* hider, const char* other,
-                                   int rounds = 1) {
-  ExtremeTally tally;
-  for (int k = 0; k < rounds * extreme.count; ++k) {
-    const TestBucket bucket = extreme.make(k);
-    const FragmentList list = bucket.hide(hider);
-    tally.samples += bucket.samples.size();
-    for (size_t s = 0; s < bucket.samples.size(); ++s) {
-      const Comparison c = compare(bucket, s, list);
-      tally.oracle_hits += c.hit, tally.doubtful += c.doubtful;
-      if (!c.agrees && tally.disagreements++ == 0) tally.first_disagreement = k;
+/// How extreme cases are run.
+struct ExtremeRun {
+  std::vector<const char*> hiders;
+  const char* other = nullptr;  ///< compared bit for bit; null: none
+  /// Other samples than free ones; buckets with a closed lens are left out then.
+  SampleTuples tuples;
+  int rounds = 1;  ///< of all variants
+};
+
+inline void tally_bucket(const TestBucket& bucket, int variant, const ExtremeRun& run,
+                         std::vector<ExtremeTally>& tallies) {
+  std::vector<RayHit> rays;
+  for (size_t s = 0; s < bucket.samples.size(); ++s) rays.push_back(trace(bucket, s));
+  const FragmentList other = run.other ? bucket.hide(run.other) : FragmentList{};
+  for (size_t h = 0; h < run.hiders.size(); ++h) {
+    ExtremeTally& tally = tallies[h];
+    const FragmentList list = bucket.hide(run.hiders[h]);
+    tally.samples += rays.size();
+    for (size_t s = 0; s < rays.size(); ++s) {
+      tally.oracle_hits += rays[s].layers > 0, tally.doubtful += rays[s].doubtful;
+      if (rays[s].doubtful) continue;
+      const Comparison c = compare(rays[s], list, s);
+      if (!c.agrees && tally.disagreements++ == 0) tally.first_disagreement = variant;
       tally.worst_depth_error = std::max(tally.worst_depth_error, double(c.depth_error));
     }
-    if (!other) continue;
-    const size_t differences = count_differences(list, bucket.hide(other));
-    if (differences > 0 && tally.hider_differences == 0) tally.first_difference = k;
+    const size_t differences = run.other ? count_differences(list, other) : 0;
+    if (differences > 0 && tally.hider_differences == 0) tally.first_difference = variant;
     tally.hider_differences += differences;
   }
-  return tally;
+}
+
+/// One tally for each hider.
+inline std::vector<ExtremeTally> tally_extremes(const ExtremeCase& extreme, const ExtremeRun& run) {
+  std::vector<ExtremeTally> tallies(run.hiders.size());
+  for (int k = 0; k < run.rounds * extreme.count; ++k) {
+    TestBucket bucket = extreme.make(k);
+    if (run.tuples.kind != SampleTuples::Kind::free) {
+      if (!bucket.lens) continue;
+      const SampleBlock& samples = bucket.samples;
+      bucket.make_samples(samples.rect, samples.samples_per_pixel, uint32_t(k), run.tuples);
+    }
+    tally_bucket(bucket, k, run, tallies);
+  }
+  return tallies;
 }
 
 }  // namespace tessera

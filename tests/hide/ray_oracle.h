@@ -62,27 +62,28 @@ inline SeenCorner see_corner(const TestBucket& bucket, size_t s, const glm::dvec
              v = b.v.empty() ? 0 : Real(b.v[s]);
   const auto W = [&](Real z) { return Real(m.w_from_z) * z + Real(m.w_constant); };
   const auto coc = [](const AffineInZ& a, Real z) { return Real(a.scale) * z + Real(a.offset); };
-  const auto coc_size = [](const AffineInZ& a, Real z) {
-    return std::abs(Real(a.scale) * z) + std::abs(Real(a.offset));
-  };
   const Real w = W(P.z);
   SeenCorner c{};
   c.dx = Real(m.x_scale) * Real(P.x) + Real(m.x_from_w) * w + u * coc(m.coc_x, P.z) - x * w;
   c.dy = Real(m.y_scale) * Real(P.y) + Real(m.y_from_w) * w + v * coc(m.coc_y, P.z) - y * w;
   c.z = P.z;
-  Real dx_size = 0, dy_size = 0, z_size = 0;
+  // Sizes need no more than double.
+  const auto size_of = [](const AffineInZ& a, double z) {
+    return std::abs(double(a.scale) * z) + std::abs(double(a.offset));
+  };
+  double dx_size = 0, dy_size = 0, z_size = 0;
   for (const glm::dvec3& k : keys) {
-    const Real wk = std::abs(W(k.z));
-    dx_size = std::max(dx_size, std::abs(Real(m.x_scale) * Real(k.x)) +
-                                    (std::abs(Real(m.x_from_w)) + std::abs(x)) * wk +
-                                    std::abs(u) * coc_size(m.coc_x, k.z));
-    dy_size = std::max(dy_size, std::abs(Real(m.y_scale) * Real(k.y)) +
-                                    (std::abs(Real(m.y_from_w)) + std::abs(y)) * wk +
-                                    std::abs(v) * coc_size(m.coc_y, k.z));
-    z_size = std::max(z_size, std::abs(Real(k.z)));
+    const double wk = std::abs(double(m.w_from_z) * k.z + double(m.w_constant));
+    dx_size = std::max(dx_size, std::abs(double(m.x_scale) * k.x) +
+                                    (std::abs(double(m.x_from_w)) + std::abs(double(x))) * wk +
+                                    std::abs(double(u)) * size_of(m.coc_x, k.z));
+    dy_size = std::max(dy_size, std::abs(double(m.y_scale) * k.y) +
+                                    (std::abs(double(m.y_from_w)) + std::abs(double(y))) * wk +
+                                    std::abs(double(v)) * size_of(m.coc_y, k.z));
+    z_size = std::max(z_size, std::abs(k.z));
   }
-  c.dx_error = relative_rounding * dx_size, c.dy_error = relative_rounding * dy_size;
-  c.z_error = relative_rounding * z_size;
+  c.dx_error = relative_rounding * Real(dx_size), c.dy_error = relative_rounding * Real(dy_size);
+  c.z_error = relative_rounding * Real(z_size);
   return c;
 }
 
@@ -140,17 +141,28 @@ inline std::array<glm::dvec3, 2> segment_ends(const Grid& grid, int vertex, doub
   return {at(key), at(key + 1)};
 }
 
-inline Sighting sight(const TestBucket& bucket, size_t s, const SampleRay& r, const Grid& grid,
-                      int triangle) {
-  const auto v = triangle_vertices(grid, triangle);
+/// The vertices of a grid at a sample. Reusable.
+struct SeenGrid {
+  std::vector<glm::dvec3> P;
+  std::vector<SeenCorner> corners;
+
+  void see(const TestBucket& bucket, size_t s, double t, const Grid& grid) {
+    P.clear(), corners.clear();
+    for (int i = 0; i < grid.vertex_count(); ++i) {
+      P.push_back(vertex_at(grid, i, t));
+      corners.push_back(see_corner(bucket, s, P.back(), segment_ends(grid, i, t)));
+    }
+  }
+};
+
+inline Sighting sight(const Camera& camera, const Camera::Ray& ray, const SeenGrid& seen,
+                      const std::array<int, 3>& v) {
   std::array<glm::dvec3, 3> p;
   std::array<SeenCorner, 3> corners;
-  for (size_t k = 0; k < 3; ++k) {
-    p[k] = vertex_at(grid, v[k], r.t);
-    corners[k] = see_corner(bucket, s, p[k], segment_ends(grid, v[k], r.t));
-  }
-  const Meeting m = meet(r.ray, p);
-  const Real near = bucket.camera.near_clip(), far = bucket.camera.far_clip();
+  for (size_t k = 0; k < 3; ++k)
+    p[k] = seen.P[size_t(v[k])], corners[k] = seen.corners[size_t(v[k])];
+  const Meeting m = meet(ray, p);
+  const Real near = camera.near_clip(), far = camera.far_clip();
   Sighting result;
   const bool meets = m.margin() >= 0 && std::isfinite(m.distance);
   result.z = meets ? m.distance : 0;
@@ -178,10 +190,12 @@ struct RayHit {
 inline RayHit trace(const TestBucket& bucket, size_t s) {
   const SampleRay r = sample_ray(bucket, s);
   RayHit best;
+  SeenGrid vertices;
   for (size_t g = 0; g < bucket.grids.size(); ++g) {
     const Grid& grid = *bucket.grids[g];
+    vertices.see(bucket, s, r.t, grid);
     for (int k = 0; k < 2 * grid.micropolygon_count(); ++k) {
-      const Sighting seen = sight(bucket, s, r, grid, k);
+      const Sighting seen = sight(bucket.camera, r.ray, vertices, triangle_vertices(grid, k));
       best.doubtful |= seen.doubtful;
       if (!seen.inside) continue;
       ++best.layers;
@@ -197,27 +211,18 @@ inline RayHit trace(const TestBucket& bucket, size_t s) {
   return best;
 }
 
-/// A hider's nearest fragment at a sample against the ray's: differs beyond rounding?
+/// A hider's nearest fragment at a sample against the ray's answer.
 struct Comparison {
-  bool doubtful = false, agrees = true;
-  bool hit = false;      ///< the ray's answer
+  bool agrees = true;    ///< to within rounding; not to be asked where `expected` is doubtful
   Real depth_error = 0;  ///< relative, where both hit
-  RayHit expected;
 };
 
-inline Comparison compare(const TestBucket& bucket, size_t s, const FragmentList& list) {
-  Comparison c;
-  const RayHit& expected = c.expected = trace(bucket, s);
+inline Comparison compare(const RayHit& expected, const FragmentList& list, size_t s) {
   const size_t first = list.first_of_sample[s];
-  const bool seen = list.first_of_sample[s + 1] > first;
-  c.hit = expected.layers > 0, c.doubtful = expected.doubtful;
-  if (c.doubtful) return c;
-  c.agrees = seen == c.hit;
-  if (!seen || !c.hit) return c;
+  const bool seen = list.first_of_sample[s + 1] > first, hit = expected.layers > 0;
+  if (!seen || !hit) return {seen == hit, 0};
   const Real error = std::abs(Real(list.z[first]) - expected.z);
-  c.agrees = error <= expected.z_error;
-  c.depth_error = error / std::abs(expected.z);
-  return c;
+  return {error <= expected.z_error, error / std::abs(expected.z)};
 }
 
 }  // namespace tessera
