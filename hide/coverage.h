@@ -170,21 +170,17 @@ HWY_INLINE void keep_visible(const CoverageFrame& f, Hit& hit, CoverageCounts& c
   hit.mask = hn::And(hn::And(hit.mask, finite), keep);
 }
 
-/// Tests one vector of samples, of which the first `remaining` count, against a micropolygon. Gives
-/// `sink(hit)` the fragments; the sink compares depths. A folded micropolygon may cover a sample
-/// with both triangles, and then the sink is called for triangle 0 first.
-template <bool kMotion, bool kLens, class Sink>
-HWY_INLINE void test_vector(const CoverageFrame& f, const Quad& q, const SampleVec& s,
+/// Gives `sink(hit)` the fragments of the samples at `t` that `c` says are inside, of which the
+/// first `remaining` count; the sink compares depths. A folded micropolygon may cover a sample with
+/// both triangles, and then the sink is called for triangle 0 first. Of `seen`, only z is read.
+template <bool kMotion, class Sink>
+HWY_INLINE void report_hits(const CoverageFrame& f, const SeenQuad& seen, Coverage c, FloatVec t,
                             size_t remaining, CoverageCounts& counts, const Sink& sink) {
   const FloatTag d;
-  const SeenQuad seen = see<kMotion, kLens>(f, q, s);
-  Coverage c;
-  if (!find_inside(seen, c)) return;
-
   FloatMask valid = hn::FirstN(d, remaining);
   if constexpr (kMotion)
-    valid = hn::And(valid,
-                    hn::And(hn::Ge(s.t, hn::Set(d, f.t_begin)), hn::Le(s.t, hn::Set(d, f.t_last))));
+    valid =
+        hn::And(valid, hn::And(hn::Ge(t, hn::Set(d, f.t_begin)), hn::Le(t, hn::Set(d, f.t_last))));
   c.in0 = hn::And(c.in0, valid), c.in1 = hn::And(c.in1, valid);
   const FloatMask any = hn::Or(c.in0, c.in1);
   if (hn::AllFalse(d, any)) return;
@@ -201,6 +197,16 @@ HWY_INLINE void test_vector(const CoverageFrame& f, const Quad& q, const SampleV
     sink(second);
   }
   counts.covered += hn::CountTrue(d, covered);
+}
+
+/// Tests one vector of samples, of which the first `remaining` count, against a micropolygon, and
+/// gives `sink(hit)` the fragments as report_hits() does.
+template <bool kMotion, bool kLens, class Sink>
+HWY_INLINE void test_vector(const CoverageFrame& f, const Quad& q, const SampleVec& s,
+                            size_t remaining, CoverageCounts& counts, const Sink& sink) {
+  const SeenQuad seen = see<kMotion, kLens>(f, q, s);
+  Coverage c;
+  if (find_inside(seen, c)) report_hits<kMotion>(f, seen, c, s.t, remaining, counts, sink);
 }
 
 }  // namespace HWY_NAMESPACE

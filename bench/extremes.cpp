@@ -1,0 +1,33 @@
+/// The extremes table: where formulas break, what the default hider sees there, and what long
+/// double rays and the brute-force hider see.
+
+#include "bench/harness/benchmark.h"
+#include "tests/hide/extreme_tally.h"
+
+namespace tessera {
+namespace {
+
+void run(BenchmarkContext& context) {
+  for (const ExtremeCase& extreme : extreme_cases()) {
+    const ExtremeRun what{
+        .hiders = {"shear"}, .other = "bbox", .tuples = {}, .rounds = context.scaled(10, 1)};
+    const ExtremeTally t = tally_extremes(extreme, what).front();
+    context.add_row(extreme.name, {{"samples", double(t.samples)},
+                                   {"oracle_hits", double(t.oracle_hits)},
+                                   {"doubtful", double(t.doubtful)},
+                                   {"disagreements", double(t.disagreements)},
+                                   {"hider_differences", double(t.hider_differences)},
+                                   {"worst_depth_error", t.worst_depth_error}});
+  }
+}
+
+}  // namespace
+
+BenchmarkDefinition benchmark_extremes() {
+  return {"extremes",
+          "hider shear at the extremes against long double rays and against brute force; expected: "
+          "no disagreements, no differences",
+          run};
+}
+
+}  // namespace tessera
