@@ -31,6 +31,9 @@ void test_candidates(const BlurredGridJob& job, int i, int j, const CandidateLis
   FragmentBuffer& buffer = *job.test.buffer;
   const SampleArrays samples = list.samples();
   job.counters->samples_tested += list.count;
+  if (!job.test.tests_per_pixel.empty())
+    for (size_t k = 0; k < list.count; ++k)
+      ++job.test.tests_per_pixel[list.index[k] / job.test.samples_per_pixel];
   for (size_t k = 0; k < list.count; k += hn::Lanes(FloatTag())) {
     const SampleVec s = load_samples<kMotion, kLens>(samples, k);
     test_vector<kMotion, kLens>(

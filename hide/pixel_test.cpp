@@ -45,6 +45,7 @@ PixelTestJob pixel_test_job(const HideInput& input, const ClipGrid& grid,
   job.samples_per_pixel = size_t(input.samples->samples_per_pixel);
   job.pixels_per_row = size_t(input.samples->rect.width());
   job.buffer = &buffer;
+  job.tests_per_pixel = input.tests_per_pixel;
   job.motion = grid.moves(), job.lens = input.features.lens, job.opaque = opaque;
   return job;
 }

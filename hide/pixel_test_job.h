@@ -14,6 +14,7 @@ struct PixelTestJob {
   size_t samples_per_pixel = 0, pixels_per_row = 0;
   FragmentBuffer* buffer = nullptr;
   bool motion = false, lens = false, opaque = true;
+  std::span<uint32_t> tests_per_pixel;  ///< as HideInput has it
 };
 
 PixelTestJob pixel_test_job(const HideInput& input, const ClipGrid& grid,

@@ -195,6 +195,7 @@ void SamplePattern::fill_free(int px, int py, SampleBlock& block, size_t first,
   if (!warps_.has_time()) {  // no order to keep: straight into the block
     scramble_positions(sobol[0], count, dimension_seed(0), float(px), block.x.data() + first);
     scramble_positions(sobol[1], count, dimension_seed(1), float(py), block.y.data() + first);
+    if (!warps_.has_lens()) return;
     float *u = block.u.data() + first, *v = block.v.data() + first;
     scramble_points(sobol[2], count, dimension_seed(2), u);
     scramble_points(sobol[3], count, dimension_seed(3), v);

@@ -80,6 +80,11 @@ HWY_INLINE void test_sorted(const BlurredGridJob& job, const Quad& quad, uint32_
   }
 }
 
+/// Adds the sorted candidates [begin, end) to the tests of their pixels.
+void count_sorted(const PixelTestJob& test, const CellSamples& c, size_t begin, size_t end) {
+  for (size_t k = begin; k < end; ++k) ++test.tests_per_pixel[c.index[k] / test.samples_per_pixel];
+}
+
 /// Tests every micropolygon of the block against the candidates in its cells. Returns how many had
 /// any.
 template <bool kMotion, bool kLens, bool kOpaque>
@@ -94,6 +99,7 @@ uint64_t test_cells(const ShearedGridJob& job, const ShearedBlock& sheared,
   const CellBoxes boxes{storage.data(), storage.data() + stride, storage.data() + 2 * stride,
                         storage.data() + 3 * stride};
   const uint32_t* end = c.end.data();
+  const bool counting = !blur.test.tests_per_pixel.empty();
   CoverageCounts counts;
   uint64_t tested = 0, micropolygons = 0;
   for (int j = block.j0; j < block.j1; ++j) {
@@ -110,9 +116,10 @@ uint64_t test_cells(const ShearedGridJob& job, const ShearedBlock& sheared,
       const Quad quad = load_quad(*blur.segment, u_count, i, j);
       for (int row = boxes.row0[k]; row <= boxes.row1[k]; ++row) {
         const uint32_t* cells = end + row * lattice.columns;
-        test_sorted<kMotion, kLens, kOpaque>(blur, quad, blur.id0 + 2 * uint32_t(m),
-                                             cells[boxes.column0[k]], cells[boxes.column1[k] + 1],
-                                             c, counts);
+        const size_t first = cells[boxes.column0[k]], last = cells[boxes.column1[k] + 1];
+        test_sorted<kMotion, kLens, kOpaque>(blur, quad, blur.id0 + 2 * uint32_t(m), first, last, c,
+                                             counts);
+        if (HWY_UNLIKELY(counting)) count_sorted(blur.test, c, first, last);
       }
     }
   }
@@ -239,8 +246,8 @@ class ShearedVisit {
     gather_cells<kMotion, kLens>({blur_, sheared, bounds, lattice, window(piece)}, cells);
     if (cells.count == 0) return 0;
     sort_cells<kMotion, kLens>(blur_.test.samples, lattice, cells);
+    if (!blur_.test.opaque || !blur_.test.tests_per_pixel.empty()) index_sorted(cells);
     if (!blur_.test.opaque) {
-      index_sorted(cells);
       return test_cells<kMotion, kLens, false>(job_, sheared, lattice, block);
     }
     begin_hits(cells);

@@ -45,7 +45,8 @@ struct CellSamples {
   std::vector<uint32_t> cell, found;
   std::vector<uint32_t> end;  ///< [1 + cell]: end of its run; end[0] is 0, so end[c] begins cell c
   AlignedVector<float> x, y, u, v, t;  ///< sorted
-  AlignedVector<uint32_t> index;       ///< in the bucket, sorted; only for transparent blocks
+  AlignedVector<uint32_t>
+      index;  ///< in the bucket, sorted; not for opaque blocks unless tests are counted
   /// Nearest opaque hit of the block on each, sorted; an id of `no_hit` means none.
   AlignedVector<float> z, b1, b2;
   AlignedVector<uint32_t> id;

@@ -144,6 +144,15 @@ HWY_INLINE void test_strips(const StaticGridJob& job, const Quad& quad, uint32_t
   }
 }
 
+/// Adds the strips [first, last] of the pixels [x0, x1) to the tests of each pixel.
+void count_strips(const StaticGridJob& job, int x0, int x1, int first, int last) {
+  const size_t strips = size_t(job.strips_per_pixel);
+  const uint32_t per_strip = uint32_t(job.test.samples_per_pixel / strips);
+  for (size_t strip = size_t(first); strip <= size_t(last); ++strip)
+    for (size_t x = size_t(x0); x < size_t(x1); ++x)
+      job.test.tests_per_pixel[strip / strips * job.test.pixels_per_row + x] += per_strip;
+}
+
 template <bool kOpaque>
 uint64_t test_boxes(const StaticGridJob& job) {
   const ClipGrid& clip = *job.clip;
@@ -166,6 +175,7 @@ uint64_t test_boxes(const StaticGridJob& job) {
       continue;
     ++micropolygons;
     tested += size_t(x1 - x0) * size_t(last - first + 1) * per_strip;
+    if (!job.test.tests_per_pixel.empty()) count_strips(job, x0, x1, first, last);
     test_strips<kOpaque>(job, quad, job.id0 + 2 * uint32_t(m), x0, x1, first, last, counts);
   }
   job.counters->samples_tested += tested;

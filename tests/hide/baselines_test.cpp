@@ -48,17 +48,16 @@ TEST_CASE("Bad arguments of the baseline hiders are refused") {
 TEST_CASE("Tests are counted for each pixel if somebody asks") {
   for (const bool motion : {false, true})
     for (const bool lens : {false, true}) {
-      TestBucket bucket =
+      const TestBucket bucket =
           random_bucket(12, {.motion = motion, .lens = lens}, {16, 8, 45, 38}, 7, 20);
-      for (const char* hider : {"bbox", "pixar:1x1x1", "pixar:2x2x4", "dual", "dual:3"}) {
+      for (const char* hider : {"bbox", "pixar:1x1x1", "pixar:2x2x4", "dual", "dual:3", "shear"}) {
         INFO(hider << " motion " << motion << " lens " << lens);
         HideCounters quiet, counted;
         bucket.hide(hider, &quiet);
-        bucket.tests_per_pixel.assign(size_t(bucket.samples.rect.pixel_count()), 0);
-        bucket.hide(hider, &counted);
+        std::vector<uint32_t> tests_per_pixel(size_t(bucket.samples.rect.pixel_count()), 0);
+        bucket.hide(hider, &counted, tests_per_pixel);
         uint64_t sum = 0;
-        for (const uint32_t tests : bucket.tests_per_pixel) sum += tests;
-        bucket.tests_per_pixel.clear();
+        for (const uint32_t tests : tests_per_pixel) sum += tests;
         REQUIRE(sum == counted.samples_tested);
         REQUIRE(counted.samples_tested == quiet.samples_tested);
       }

@@ -46,7 +46,6 @@ struct TestBucket {
   std::vector<bool> opaque;  ///< empty: all
   SampleBlock samples;
   bool motion = false, lens = false;
-  mutable std::vector<uint32_t> tests_per_pixel;  ///< sized: hide() adds to it
 
   explicit TestBucket(const CameraSettings& settings) : camera(settings) {}
 
@@ -70,7 +69,6 @@ struct TestBucket {
       input.features.transparency |= !hide_grids.back().opaque;
     }
     input.samples = &samples;
-    input.tests_per_pixel = tests_per_pixel;
     input.grids = hide_grids;
     input.raster_clip = camera.raster_clip();
     input.near_clip = camera.near_clip(), input.far_clip = camera.far_clip();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include "base/error.h"
 #include "hide/samples.h"
@@ -184,4 +185,26 @@ TEST_CASE("The fast disc lens is the disc profile") {
 TEST_CASE("Sample counts out of range are refused") {
   CHECK_THROWS_AS(SamplePattern(0, 0, nullptr, nullptr), Error);
   CHECK_THROWS_AS(SamplePattern(65537, 0, nullptr, nullptr), Error);
+}
+
+TEST_CASE("Samples of still pixels lie one in each strip of y, in order") {
+  for (const int spp : {1, 2, 16, 64}) {
+    SampleBlock block;
+    SamplePattern(spp, 5, nullptr, nullptr).fill({1000, 2000, 1009, 2007}, block);
+    REQUIRE(block.y_stratified);
+    for (size_t i = 0; i < block.size(); ++i) {
+      const size_t pixel = i / size_t(spp), k = i % size_t(spp);
+      const double from = 2000 + double(pixel / 9) + double(k) / spp;
+      // The sum of a pixel and an offset may round up to the end of its strip.
+      REQUIRE((block.y[i] >= from && block.y[i] <= from + 1.0 / spp));
+    }
+  }
+  const Profiles p;
+  for (const auto& [spp, lens, shutter] :
+       {std::tuple{3, false, false}, {16, true, false}, {16, false, true}}) {
+    SampleBlock block;
+    SamplePattern(spp, 5, lens ? p.lens.get() : nullptr, shutter ? p.shutter.get() : nullptr)
+        .fill({0, 0, 4, 4}, block);
+    REQUIRE(!block.y_stratified);
+  }
 }

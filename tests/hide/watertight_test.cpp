@@ -81,6 +81,7 @@ TEST_CASE("Samples exactly on shared vertices, edges and diagonals meet a sheet 
                            }));
     bucket.opaque.assign(4, false);
     bucket.make_samples({0, 0, 16, 16}, 4, 1);
+    bucket.samples.y_stratified = false;
     for (size_t s = 0; s < bucket.samples.size(); ++s) {
       const int p = int(s / 4), k = int(s % 4);
       // Corner, middles of the two near sides, and centre of each pixel: on vertices, edges and
@@ -101,6 +102,7 @@ TEST_CASE("Samples exactly on shared vertices, edges and diagonals meet a sheet 
 TEST_CASE("Samples on the projected vertices of a scattered sheet meet it exactly once") {
   TestBucket bucket = sheets(false, false, 2);
   bucket.make_samples({0, 0, 24, 24}, 16, 3);
+  bucket.samples.y_stratified = false;
   // As near as floats come to the vertices, so that the edge functions round to zero now and then.
   size_t s = 0;
   for (const auto& grid : bucket.grids)
