@@ -159,15 +159,19 @@ HWY_INLINE Hit make_hit(const SeenQuad& q, const Coverage& c, FloatMask mask, Fl
   return {mask, hn::Mul(z, scale), hn::Mul(w1, scale), hn::Mul(w2, scale), sum, triangle1};
 }
 
-/// Keeps of a hit what lies between the clipping planes and faces the camera; tallies the rest.
+/// Keeps of a hit what lies between the clipping planes, which are finite, and faces the camera; so
+/// depths that are not finite go, and are tallied.
 HWY_INLINE void keep_visible(const CoverageFrame& f, Hit& hit, CoverageCounts& counts) {
   const FloatTag d;
-  const FloatMask finite = hn::Lt(hn::Abs(hit.z), hn::Set(d, hwy::HighestValue<float>()));
-  counts.nonfinite += hn::CountTrue(d, hn::AndNot(finite, hit.mask));
   FloatMask keep =
       hn::And(hn::Ge(hit.z, hn::Set(d, f.near_clip)), hn::Le(hit.z, hn::Set(d, f.far_clip)));
   keep = hn::And(keep, hn::Ge(hn::Mul(hit.sum, hn::Set(d, f.facing)), hn::Zero(d)));
-  hit.mask = hn::And(hn::And(hit.mask, finite), keep);
+  const FloatMask refused = hn::AndNot(keep, hit.mask);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, refused))) {
+    const FloatMask finite = hn::Lt(hn::Abs(hit.z), hn::Set(d, hwy::HighestValue<float>()));
+    counts.nonfinite += hn::CountTrue(d, hn::AndNot(finite, refused));
+  }
+  hit.mask = hn::And(hit.mask, keep);
 }
 
 /// Gives `sink(hit)` the fragments of the samples at `t` that `c` says are inside, of which the

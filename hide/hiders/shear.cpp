@@ -55,7 +55,8 @@ class ShearHider final : public Hider {
                       : hide_static(input, g, segment, buffers, counters);
       counters.micropolygons_culled += uint64_t(clip.grid().micropolygon_count()) -
                                        std::min(tested, uint64_t(clip.grid().micropolygon_count()));
-      if (input.grids[g].opaque) buffers.depth.update(everywhere, buffers.fragments);
+      if (input.grids[g].opaque && g + 1 < input.grids.size())
+        buffers.depth.update(pixels_of(*input.grids[g].grid, rect), buffers.fragments);
     }
     buffers.fragments.resolve(input, out);
     counters.samples += input.samples->size();
@@ -63,6 +64,17 @@ class ShearHider final : public Hider {
   }
 
  private:
+  /// Pixels that the grid may touch, relative to the first of `rect`.
+  static PixelRect pixels_of(const Grid& grid, const PixelRect& rect) {
+    const RasterBounds& r = grid.raster_bounds;
+    const auto pixel = [](float position, int first, int size) {
+      return int(std::clamp(position - float(first), 0.0f, float(size)));
+    };
+    return {pixel(r.x_min, rect.x0, rect.width()), pixel(r.y_min, rect.y0, rect.height()),
+            std::min(pixel(r.x_max, rect.x0, rect.width()) + 1, rect.width()),
+            std::min(pixel(r.y_max, rect.y0, rect.height()) + 1, rect.height())};
+  }
+
   static uint64_t hide_static(const HideInput& input, size_t g, const ClipSegment& segment,
                               Buffers& buffers, HideCounters& counters) {
     StaticGridJob job;
