@@ -40,14 +40,14 @@ struct Sheared {
 };
 
 template <bool kMotion, bool kLens>
-HWY_INLINE Sheared shear(const BlurredGridJob& job, const ShearFrame& f, const SampleVec& s) {
+HWY_INLINE Sheared shear(const SampleBox& box, const CoverageFrame& frame, const ShearFrame& f,
+                         const SampleVec& s) {
   const FloatTag d;
   FloatVec tau = hn::Zero(d);
   if constexpr (kMotion)
-    tau = hn::Mul(hn::Sub(s.t, hn::Set(d, job.test.frame.t_begin)),
-                  hn::Set(d, job.test.frame.inverse_duration));
+    tau = hn::Mul(hn::Sub(s.t, hn::Set(d, frame.t_begin)), hn::Set(d, frame.inverse_duration));
   const auto along = [&](FloatVec position, FloatVec lens, int axis) HWY_ATTR {
-    const FloatVec p = hn::Sub(position, hn::Set(d, job.box.middle[axis]));
+    const FloatVec p = hn::Sub(position, hn::Set(d, box.middle[axis]));
     FloatVec result = hn::Mul(p, hn::Set(d, f.per_p[axis]));
     if constexpr (kLens) result = hn::MulAdd(lens, hn::Set(d, f.per_l[axis]), result);
     if constexpr (kMotion) result = hn::MulAdd(tau, hn::Set(d, f.per_t[axis]), result);
@@ -116,7 +116,7 @@ void gather_candidates(const BlurredGridJob& job, const BlockBounds& bounds, Can
             keep = hn::And(keep, hn::And(hn::Ge(s.t, hn::Set(d, job.t_first)),
                                          hn::Le(s.t, hn::Set(d, job.t_last))));
           if (hn::AllFalse(d, keep)) continue;
-          const Sheared sheared = shear<kMotion, kLens>(job, bounds.shear, s);
+          const Sheared sheared = shear<kMotion, kLens>(job.box, job.test.frame, bounds.shear, s);
           keep = hn::And(keep, inside(sheared, bounds.low, bounds.high));
           if (hn::AllFalse(d, keep)) continue;
           append<kMotion, kLens>(list, s, hn::Iota(du, uint32_t(begin + k)), Compaction(keep));
@@ -137,7 +137,7 @@ void filter(const BlurredGridJob& job, const BlockBounds& bounds, const Candidat
   const SampleArrays samples = from.samples();
   for (size_t i = 0; i < from.count; i += hn::Lanes(d)) {
     const SampleVec s = load_samples<kMotion, kLens>(samples, i);
-    const Sheared sheared = shear<kMotion, kLens>(job, bounds.shear, s);
+    const Sheared sheared = shear<kMotion, kLens>(job.box, job.test.frame, bounds.shear, s);
     const FloatMask keep =
         hn::And(inside(sheared, bounds.low, bounds.high), hn::FirstN(d, from.count - i));
     if (hn::AllFalse(d, keep)) continue;

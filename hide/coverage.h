@@ -181,11 +181,15 @@ template <bool kMotion, class Sink>
 HWY_INLINE void report_hits(const CoverageFrame& f, const SeenQuad& seen, Coverage c, FloatVec t,
                             size_t remaining, CoverageCounts& counts, const Sink& sink) {
   const FloatTag d;
-  FloatMask valid = hn::FirstN(d, remaining);
-  if constexpr (kMotion)
-    valid =
-        hn::And(valid, hn::And(hn::Ge(t, hn::Set(d, f.t_begin)), hn::Le(t, hn::Set(d, f.t_last))));
-  c.in0 = hn::And(c.in0, valid), c.in1 = hn::And(c.in1, valid);
+  if constexpr (kMotion) {
+    const FloatMask owned =
+        hn::And(hn::Ge(t, hn::Set(d, f.t_begin)), hn::Le(t, hn::Set(d, f.t_last)));
+    c.in0 = hn::And(c.in0, owned), c.in1 = hn::And(c.in1, owned);
+  }
+  if (remaining < hn::Lanes(d)) {
+    const FloatMask valid = hn::FirstN(d, remaining);
+    c.in0 = hn::And(c.in0, valid), c.in1 = hn::And(c.in1, valid);
+  }
   const FloatMask any = hn::Or(c.in0, c.in1);
   if (hn::AllFalse(d, any)) return;
 

@@ -125,78 +125,83 @@ struct TimeWindow {
   float first = 0, last = 1;
 };
 
-/// What the gathering of a block's candidates works with.
+/// What the gathering of a block's candidates works with. Held by value, so that the compiler knows
+/// that no store changes it and keeps its numbers as vectors throughout the loops.
 struct GatherJob {
-  const BlurredGridJob& blur;
-  const ShearedBlock& block;
-  const BlockBounds& bounds;
-  const CellLattice& lattice;
-  TimeWindow window;  ///< the block owns samples with first <= t <= last
+  ShearMap map;
+  CoverageFrame frame;
+  BlockBounds bounds;  ///< of the block, in dual space
+  SampleBox box;
+  RasterBounds extent;  ///< of the block, in the space of its map
+  CellLattice lattice;
+  TimeWindow window;    ///< the block owns samples with first <= t <= last
+  float z_nearest = 0;  ///< samples with something opaque in front of this are settled
+  SampleArrays samples;
+  const float* z = nullptr;  ///< depth of what the samples see so far
+  uint32_t *cell = nullptr, *found = nullptr;
 };
 
 /// Appends the candidates among the samples [begin, begin + length) to the `count` that there are
 /// and returns how many that makes. Most samples fall to the block's dual-space bounds, which cost
 /// a few operations; what these keep, mostly candidates, is mapped.
 template <bool kMotion, bool kLens>
-HWY_INLINE size_t gather_run(const GatherJob& job, size_t begin, size_t length, CellSamples& cells,
-                             size_t count) {
+HWY_INLINE size_t gather_run(const GatherJob& job, size_t begin, size_t length, size_t count) {
   const FloatTag d;
   const hn::RebindToUnsigned<FloatTag> du;
   const hn::RebindToSigned<FloatTag> di;
   const CellLattice& l = job.lattice;
-  const FloatVec nearest = hn::Set(d, job.blur.z_nearest);
   for (size_t k = 0; k < length; k += hn::Lanes(d)) {
-    const SampleVec s = load_samples<kMotion, kLens>(job.blur.test.samples, begin + k);
-    FloatMask keep = hn::And(hn::FirstN(d, length - k),
-                             hn::Ge(hn::LoadU(d, job.blur.test.buffer->z() + begin + k), nearest));
-    const Sheared sheared = shear<kMotion, kLens>(job.blur, job.bounds.shear, s);
+    const SampleVec s = load_samples<kMotion, kLens>(job.samples, begin + k);
+    FloatMask keep = hn::Ge(hn::LoadU(d, job.z + begin + k), hn::Set(d, job.z_nearest));
+    if (HWY_UNLIKELY(length - k < hn::Lanes(d))) keep = hn::And(keep, hn::FirstN(d, length - k));
+    const Sheared sheared = shear<kMotion, kLens>(job.box, job.frame, job.bounds.shear, s);
     keep = hn::And(keep, inside(sheared, job.bounds.low, job.bounds.high));
     if constexpr (kMotion)
       keep = hn::And(keep, hn::And(hn::Ge(s.t, hn::Set(d, job.window.first)),
                                    hn::Le(s.t, hn::Set(d, job.window.last))));
     if (hn::AllFalse(d, keep)) continue;
     ShearSystem system;
-    MappedSamples p = map_samples<kMotion, kLens>(job.block.map, job.blur.test.frame, s, system);
-    p = take_in_bend<kMotion, kLens>(job.block.map, s, system, p);
-    keep = hn::And(keep, within_extent(job.block.extent, p));
+    MappedSamples p = map_samples<kMotion, kLens>(job.map, job.frame, s, system);
+    p = take_in_bend<kMotion, kLens>(job.map, s, system, p);
+    keep = hn::And(keep, within_extent(job.extent, p));
     const IntVec cell_x = lattice_index(p.x, l.x_first, l.per_x, l.columns);
     const IntVec cell_y = lattice_index(p.y, l.y_first, l.per_y, l.rows);
     const auto cell = hn::Add(hn::Mul(cell_y, hn::Set(di, l.columns)), cell_x);
     const Compaction chosen(keep);
-    chosen.store(hn::BitCast(du, cell), cells.cell.data() + count);
-    chosen.store(hn::Iota(du, uint32_t(begin + k)), cells.found.data() + count);
+    chosen.store(hn::BitCast(du, cell), job.cell + count);
+    chosen.store(hn::Iota(du, uint32_t(begin + k)), job.found + count);
     count += chosen.count();
   }
   return count;
 }
 
-/// Candidates of the block among all samples of the bucket. Tiles whose intervals are empty are
-/// skipped.
+/// Candidates of the block among all samples of the bucket; returns how many. Tiles whose intervals
+/// are empty are skipped.
 template <bool kMotion, bool kLens>
-void gather_cells(const GatherJob& job, CellSamples& cells) {
-  const BlockBounds& bounds = job.bounds;
-  const BlurredGridJob& blur = job.blur;
-  const PixelRect& rect = blur.rect;
-  const size_t spp = blur.test.samples_per_pixel;
-  const SampleInterval& span = blur.time_span;
+size_t gather_cells(const BlurredGridJob& blur, const GatherJob& gather) {
+  const GatherJob job = gather;
+  const PixelRect rect = blur.rect;
+  const size_t spp = blur.test.samples_per_pixel, pixels_per_row = blur.test.pixels_per_row;
+  const SampleInterval span = blur.time_span;
   size_t count = 0;
   for (int ty = rect.y0; ty < rect.y1; ty += blur.tile_size) {
     const int y_end = std::min(ty + blur.tile_size, rect.y1);
-    SampleInterval row = tile_interval(bounds, blur.box, 1, float(ty), float(y_end));
+    SampleInterval row = tile_interval(gather.bounds, blur.box, 1, float(ty), float(y_end));
     row.t_min = std::max(row.t_min, span.t_min), row.t_max = std::min(row.t_max, span.t_max);
     if (row.empty()) continue;
     for (int tx = rect.x0; tx < rect.x1; tx += blur.tile_size) {
       const int x_end = std::min(tx + blur.tile_size, rect.x1);
-      const SampleInterval column = tile_interval(bounds, blur.box, 0, float(tx), float(x_end));
+      const SampleInterval column =
+          tile_interval(gather.bounds, blur.box, 0, float(tx), float(x_end));
       if (column.empty() || column.t_min > row.t_max || row.t_min > column.t_max) continue;
       ++blur.counters->tiles_visited;
       for (int y = ty; y < y_end; ++y)
         count = gather_run<kMotion, kLens>(
-            job, (size_t(y - rect.y0) * blur.test.pixels_per_row + size_t(tx - rect.x0)) * spp,
-            size_t(x_end - tx) * spp, cells, count);
+            job, (size_t(y - rect.y0) * pixels_per_row + size_t(tx - rect.x0)) * spp,
+            size_t(x_end - tx) * spp, count);
     }
   }
-  cells.count = count;
+  return count;
 }
 
 /// Sorts the candidates by cell, keeping their order within one. `cell` becomes each one's rank.

@@ -40,43 +40,57 @@ void find_cell_boxes(const ShearedBlock& b, const CellLattice& l, int row, size_
   }
 }
 
+/// The sorted candidates and their hits, by value: hide/gather_cells.h says why.
+struct SortedSamples {
+  SampleArrays samples;
+  float *z, *b1, *b2;
+  uint32_t* id;
+  const uint32_t* index;
+
+  explicit SortedSamples(CellSamples& c)
+      : samples(c.samples()),
+        z(c.z.data()),
+        b1(c.b1.data()),
+        b2(c.b2.data()),
+        id(c.id.data()),
+        index(c.index.data()) {}
+};
+
 /// Opaque hits on sorted candidates. Within a block micropolygons come in order of their ids, so on
 /// equal depth what is there stays.
-HWY_INLINE void store_sorted(const Hit& hit, size_t k, uint32_t id0, CellSamples& c) {
+HWY_INLINE void store_sorted(const Hit& hit, size_t k, uint32_t id0, const SortedSamples& c) {
   const FloatTag d;
   const hn::RebindToUnsigned<FloatTag> du;
-  const FloatVec z = hn::LoadU(d, c.z.data() + k);
+  const FloatVec z = hn::LoadU(d, c.z + k);
   const FloatMask nearer = hn::And(hit.mask, hn::Lt(hit.z, z));
   if (hn::AllFalse(d, nearer)) return;
   const auto blend = [&](FloatVec value, float* to) HWY_ATTR {
     hn::StoreU(hn::IfThenElse(nearer, value, hn::LoadU(d, to)), d, to);
   };
-  hn::StoreU(hn::IfThenElse(nearer, hit.z, z), d, c.z.data() + k);
-  blend(hit.b1, c.b1.data() + k);
-  blend(hit.b2, c.b2.data() + k);
+  hn::StoreU(hn::IfThenElse(nearer, hit.z, z), d, c.z + k);
+  blend(hit.b1, c.b1 + k);
+  blend(hit.b2, c.b2 + k);
   const auto one = hn::IfThenElseZero(hn::RebindMask(du, hit.triangle1), hn::Set(du, 1u));
   const auto id = hn::Add(hn::Set(du, id0), one);
-  uint32_t* ids = c.id.data() + k;
-  hn::StoreU(hn::IfThenElse(hn::RebindMask(du, nearer), id, hn::LoadU(du, ids)), du, ids);
+  hn::StoreU(hn::IfThenElse(hn::RebindMask(du, nearer), id, hn::LoadU(du, c.id + k)), du, c.id + k);
 }
 
 /// Tests the sorted candidates [begin, end) against one micropolygon.
 template <bool kMotion, bool kLens, bool kOpaque>
-HWY_INLINE void test_sorted(const BlurredGridJob& job, const Quad& quad, uint32_t id, size_t begin,
-                            size_t end, CellSamples& c, CoverageCounts& counts) {
-  const SampleArrays samples = c.samples();
+HWY_INLINE void test_sorted(const CoverageFrame& frame, const Quad& quad, uint32_t id, size_t begin,
+                            size_t end, const SortedSamples& c, FragmentBuffer& buffer,
+                            CoverageCounts& counts) {
   for (size_t k = begin; k < end; k += hn::Lanes(FloatTag())) {
-    const SampleVec s = load_samples<kMotion, kLens>(samples, k);
-    test_vector<kMotion, kLens>(
-        job.test.frame, quad, s, end - k, counts, [&](const Hit& hit) HWY_ATTR {
-          if constexpr (kOpaque) {
-            store_sorted(hit, k, id, c);
-          } else {
-            for_each_hit(hit, [&](size_t lane, float z, float b1, float b2, uint32_t triangle) {
-              job.test.buffer->add(c.index[k + lane], z, b1, b2, id + triangle);
-            });
-          }
+    const SampleVec s = load_samples<kMotion, kLens>(c.samples, k);
+    test_vector<kMotion, kLens>(frame, quad, s, end - k, counts, [&](const Hit& hit) HWY_ATTR {
+      if constexpr (kOpaque) {
+        store_sorted(hit, k, id, c);
+      } else {
+        for_each_hit(hit, [&](size_t lane, float z, float b1, float b2, uint32_t triangle) {
+          buffer.add(c.index[k + lane], z, b1, b2, id + triangle);
         });
+      }
+    });
   }
 }
 
@@ -92,6 +106,8 @@ uint64_t test_cells(const ShearedGridJob& job, const ShearedBlock& sheared,
                     const CellLattice& lattice, const GridBlock& block) {
   const BlurredGridJob& blur = job.blur;
   CellSamples& c = job.scratch->cells;
+  const SortedSamples sorted(c);
+  const CoverageFrame frame = blur.test.frame;
   const int u_count = blur.clip->u_count();
   const size_t stride = padded(size_t(block.i1 - block.i0)) + simd_padding;
   std::vector<int32_t>& storage = job.scratch->boxes;
@@ -117,8 +133,8 @@ uint64_t test_cells(const ShearedGridJob& job, const ShearedBlock& sheared,
       for (int row = boxes.row0[k]; row <= boxes.row1[k]; ++row) {
         const uint32_t* cells = end + row * lattice.columns;
         const size_t first = cells[boxes.column0[k]], last = cells[boxes.column1[k] + 1];
-        test_sorted<kMotion, kLens, kOpaque>(blur, quad, blur.id0 + 2 * uint32_t(m), first, last, c,
-                                             counts);
+        test_sorted<kMotion, kLens, kOpaque>(frame, quad, blur.id0 + 2 * uint32_t(m), first, last,
+                                             sorted, *blur.test.buffer, counts);
         if (HWY_UNLIKELY(counting)) count_sorted(blur.test, c, first, last);
       }
     }
@@ -243,7 +259,13 @@ class ShearedVisit {
     const BlockBounds bounds = bound_vertices<kMotion, kLens>(*blur_.segment, blur_.clip->u_count(),
                                                               blur_.test.frame, blur_.box, block);
     cells.reserve(size_t(blur_.rect.pixel_count()) * blur_.test.samples_per_pixel);
-    gather_cells<kMotion, kLens>({blur_, sheared, bounds, lattice, window(piece)}, cells);
+    GatherJob gather;
+    gather.map = sheared.map, gather.frame = blur_.test.frame, gather.bounds = bounds;
+    gather.box = blur_.box, gather.extent = sheared.extent, gather.lattice = lattice;
+    gather.window = window(piece), gather.z_nearest = blur_.z_nearest;
+    gather.samples = blur_.test.samples, gather.z = blur_.test.buffer->z();
+    gather.cell = cells.cell.data(), gather.found = cells.found.data();
+    cells.count = gather_cells<kMotion, kLens>(blur_, gather);
     if (cells.count == 0) return 0;
     sort_cells<kMotion, kLens>(blur_.test.samples, lattice, cells);
     if (!blur_.test.opaque || !blur_.test.tests_per_pixel.empty()) index_sorted(cells);
