@@ -6,9 +6,8 @@
 /// by depth or not.
 
 #include <string>
-#include <type_traits>
 
-#include "base/error.h"
+#include "bench/frame_samples.h"
 #include "bench/harness/benchmark.h"
 #include "bench/hider_frame.h"
 #include "bench/ste_scenes.h"
@@ -52,56 +51,16 @@ std::vector<Method> methods(const SteScene& scene) {
   return all;
 }
 
-/// A pattern with the samples a hider asks for, where patterns can make more than one kind.
-template <class Pattern>
-Pattern make_pattern(int spp, const LensProfile* lens, const ShutterProfile* shutter,
-                     const SampleTuples& tuples) {
-  if constexpr (std::is_constructible_v<Pattern, int, uint32_t, const LensProfile*,
-                                        const ShutterProfile*, const SampleTuples&>) {
-    return Pattern(spp, 1, lens, shutter, tuples);
-  } else {
-    if (tuples.kind != SampleTuples::Kind::free)
-      throw Error("a hider asks for samples on tuples; expected one that takes any");
-    return Pattern(spp, 1, lens, shutter);
-  }
-}
-
-/// The samples of a frame, remade only when another kind or number is wanted.
-class FrameSamples {
- public:
-  const std::vector<SampleBlock>& get(const SteScene& scene, int spp, const SampleTuples& tuples) {
-    if (spp == spp_ && tuples == tuples_) return blocks_;
-    const auto pattern = make_pattern<SamplePattern>(
-        spp, scene.lens() ? &scene.camera.lens_profile() : nullptr,
-        scene.moves() ? &scene.camera.shutter_profile() : nullptr, tuples);
-    const PixelRect frame = scene.camera.frame();
-    blocks_.clear();
-    std::vector<PixelRect> rects;
-    for (int y = 0; y < frame.y1; y += bucket_size)
-      for (int x = 0; x < frame.x1; x += bucket_size)
-        rects.push_back(PixelRect{x, y, x + bucket_size, y + bucket_size}.intersect(frame));
-    blocks_.resize(rects.size());
-    tbb::parallel_for(size_t(0), rects.size(),
-                      [&](size_t b) { pattern.fill(rects[b], blocks_[b]); });
-    spp_ = spp, tuples_ = tuples;
-    return blocks_;
-  }
-
- private:
-  std::vector<SampleBlock> blocks_;
-  int spp_ = 0;
-  SampleTuples tuples_;
-};
-
 void run_case(BenchmarkContext& context, const std::string& name, const SteScene& scene) {
   BenchmarkContext::Columns columns, work;
   FrameSamples samples;
   const int bucket_columns = (scene.camera.frame().width() + bucket_size - 1) / bucket_size;
   for (const Method& m : methods(scene)) {
-    const SampleTuples tuples = make_hider(m.hider)->sample_tuples(m.spp);
+    const FrameSampling sampling{m.spp, scene.moves(), scene.lens(),
+                                 make_hider(m.hider)->sample_tuples(m.spp)};
     HiderFrame frame({scene.camera,
                       scene.grids,
-                      samples.get(scene, m.spp, tuples),
+                      samples.get(scene.camera, sampling, bucket_size),
                       bucket_columns,
                       bucket_size,
                       {scene.moves(), scene.lens(), false},
