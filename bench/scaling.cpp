@@ -41,13 +41,19 @@ std::vector<Case> cases(bool quick) {
     change(c);
     all.push_back(c);
   };
-  for (const int power : {3, 4, 5, 6, 7}) {
-    if (quick && power == 7) continue;
-    add("micropolygons", fmt::format("1e{}", power), [&](Case& c) {
-      c.scene.micropolygon_pixels =
-          std::sqrt(c.scene.width * c.scene.height / std::pow(10.0, power));
+  const auto set_count = [](Case& c, int power) {
+    c.scene.micropolygon_pixels = std::sqrt(c.scene.width * c.scene.height / std::pow(10, power));
+  };
+  for (const int power : {3, 4, 5, 6, 7})
+    if (!quick || power < 7)
+      add("micropolygons", fmt::format("1e{}", power), [&](Case& c) { set_count(c, power); });
+  // Blur of a few pixels, less than the larger micropolygons: where bounds are hardly worth their
+  // cost.
+  for (const int power : {2, 3, 4, 5})
+    add("little_blur", fmt::format("1e{}", power), [&](Case& c) {
+      set_count(c, power);
+      c.scene.motion_pixels = 5, c.scene.coc_pixels = 3;
     });
-  }
   for (const int spp : {1, 4, 16, 64, 256})
     add("spp", fmt::to_string(spp), [&](Case& c) { c.scene.samples_per_pixel = spp; });
   for (const int px : {0, 5, 50, 500})
