@@ -29,7 +29,8 @@ EmbreeVariant best_variant(EmbreeFrame& embree) {
 void run_case(BenchmarkContext& context, const char* name, double motion_pixels,
               double coc_pixels) {
   const int width = context.scaled(960, 480), height = context.scaled(540, 270);
-  const HiderScene scene(width, height, 16, motion_pixels, coc_pixels);
+  const HiderScene scene(
+      {.width = width, .height = height, .motion_pixels = motion_pixels, .coc_pixels = coc_pixels});
   HiderFrame tessera({scene.camera,
                       scene.grids,
                       scene.buckets,

@@ -3,12 +3,12 @@
 /// Rasterization", 2011, on scenes of our own. Strata are as in its section 4: in t alone, in (u,
 /// v) alone, or in both, as many as there are samples in a pixel. Micropolygons are the
 /// primitives. Grids come farthest first, so that all methods test all of them, whether they cull
-/// by depth or not.
+/// by depth or not. The slowest methods are measured on every n-th bucket of the frame, their
+/// counts and times scaled up to all of it.
 
 #include <string>
-#include <type_traits>
 
-#include "base/error.h"
+#include "bench/frame_samples.h"
 #include "bench/harness/benchmark.h"
 #include "bench/hider_frame.h"
 #include "bench/ste_scenes.h"
@@ -22,6 +22,7 @@ constexpr int bucket_size = 64, usual_spp = 16;
 struct Method {
   std::string column, hider;
   int spp = usual_spp;
+  bool brute_force = false;  ///< so slow that a part of the buckets has to do
 };
 
 std::string strata(const SteScene& scene, int spp) {
@@ -39,12 +40,12 @@ bool hider_exists(const std::string& spec) {
 
 /// Those of the table whose hiders this program has; methods on the same samples side by side.
 std::vector<Method> methods(const SteScene& scene) {
-  std::vector<Method> all{{"bbox", "bbox"},
+  std::vector<Method> all{{"bbox", "bbox", usual_spp, true},
                           {"pixar_16", "pixar:" + strata(scene, 16)},
                           {"dual_1", "dual:1"},
                           {"dual_2", "dual:2"},
                           {"shear", "shear"},
-                          {"tct", "tct"},
+                          {"tct", "tct", usual_spp, true},
                           {"interleave", "interleave:64"}};
   for (const int spp : {4, 64})
     all.push_back({fmt::format("pixar_{}", spp), "pixar:" + strata(scene, spp), spp});
@@ -52,69 +53,44 @@ std::vector<Method> methods(const SteScene& scene) {
   return all;
 }
 
-/// A pattern with the samples a hider asks for, where patterns can make more than one kind.
-template <class Pattern>
-Pattern make_pattern(int spp, const LensProfile* lens, const ShutterProfile* shutter,
-                     const SampleTuples& tuples) {
-  if constexpr (std::is_constructible_v<Pattern, int, uint32_t, const LensProfile*,
-                                        const ShutterProfile*, const SampleTuples&>) {
-    return Pattern(spp, 1, lens, shutter, tuples);
-  } else {
-    if (tuples.kind != SampleTuples::Kind::free)
-      throw Error("a hider asks for samples on tuples; expected one that takes any");
-    return Pattern(spp, 1, lens, shutter);
-  }
-}
-
-/// The samples of a frame, remade only when another kind or number is wanted.
-class FrameSamples {
- public:
-  const std::vector<SampleBlock>& get(const SteScene& scene, int spp, const SampleTuples& tuples) {
-    if (spp == spp_ && tuples == tuples_) return blocks_;
-    const auto pattern = make_pattern<SamplePattern>(
-        spp, scene.lens() ? &scene.camera.lens_profile() : nullptr,
-        scene.moves() ? &scene.camera.shutter_profile() : nullptr, tuples);
-    const PixelRect frame = scene.camera.frame();
-    blocks_.clear();
-    std::vector<PixelRect> rects;
-    for (int y = 0; y < frame.y1; y += bucket_size)
-      for (int x = 0; x < frame.x1; x += bucket_size)
-        rects.push_back(PixelRect{x, y, x + bucket_size, y + bucket_size}.intersect(frame));
-    blocks_.resize(rects.size());
-    tbb::parallel_for(size_t(0), rects.size(),
-                      [&](size_t b) { pattern.fill(rects[b], blocks_[b]); });
-    spp_ = spp, tuples_ = tuples;
-    return blocks_;
-  }
-
- private:
-  std::vector<SampleBlock> blocks_;
-  int spp_ = 0;
-  SampleTuples tuples_;
+struct Measured {
+  double percent = 0, tests = 0, tiles = 0, seconds = 0;
 };
+
+/// Hides every `every`-th bucket, and takes the others to be like them.
+Measured measure(HiderFrame& frame, int every, double all_samples) {
+  HideCounters c;
+  const double seconds = seconds_of([&] { c = frame.render(every); });
+  const double scale = all_samples / double(c.samples);
+  return {100 * double(c.samples_covered) / double(c.samples_tested),
+          scale * double(c.samples_tested), scale * double(c.tiles_visited), scale * seconds};
+}
 
 void run_case(BenchmarkContext& context, const std::string& name, const SteScene& scene) {
   BenchmarkContext::Columns columns, work;
   FrameSamples samples;
-  const int bucket_columns = (scene.camera.frame().width() + bucket_size - 1) / bucket_size;
+  const PixelRect pixels = scene.camera.frame();
+  const int bucket_columns = (pixels.width() + bucket_size - 1) / bucket_size;
+  // Strides that have no divisor in common with the buckets of a row, so that all columns are met.
+  const int stride = context.scaled(7, 3);
   for (const Method& m : methods(scene)) {
-    const SampleTuples tuples = make_hider(m.hider)->sample_tuples(m.spp);
+    const FrameSampling sampling{m.spp, scene.moves(), scene.lens(),
+                                 make_hider(m.hider)->sample_tuples(m.spp)};
     HiderFrame frame({scene.camera,
                       scene.grids,
-                      samples.get(scene, m.spp, tuples),
+                      samples.get(scene.camera, sampling, bucket_size),
                       bucket_columns,
                       bucket_size,
                       {scene.moves(), scene.lens(), false},
                       false},
                      m.hider);
-    HideCounters counters;
-    const double seconds = seconds_of([&] { counters = frame.render(); });
-    columns.emplace_back(m.column,
-                         100 * double(counters.samples_covered) / double(counters.samples_tested));
+    const Measured got =
+        measure(frame, m.brute_force ? stride : 1, double(pixels.pixel_count()) * m.spp);
+    columns.emplace_back(m.column, got.percent);
     if (m.spp != usual_spp) continue;
-    work.emplace_back(m.column + "_tests", double(counters.samples_tested));
-    work.emplace_back(m.column + "_tiles", double(counters.tiles_visited));
-    work.emplace_back(m.column + "_s", seconds);
+    work.emplace_back(m.column + "_tests", got.tests);
+    work.emplace_back(m.column + "_tiles", got.tiles);
+    work.emplace_back(m.column + "_s", got.seconds);
   }
   columns.emplace_back("micropolygons", double(scene.micropolygon_count()));
   columns.emplace_back("triangle_px", scene.mean_triangle_pixels());
