@@ -1,147 +1,15 @@
-/// The hider with interval bounds. Static grids go by boxes of pixels; grids that move or are out
-/// of focus by bounds in dual space (hide/dual_bounds.h). Nothing behind what is known to be opaque
-/// is tested.
+/// Samples carried back to where each blurred grid was, and tested there.
 
-#include <algorithm>
-#include <charconv>
-
-#include "base/error.h"
-#include "hide/sheared_grid.h"
-#include "hide/depth_margin.h"
-#include "hide/hide.h"
-#include "hide/static_grid.h"
+#include "hide/shear_hider.h"
 
 namespace tessera {
-namespace {
-
-class ShearHider final : public Hider {
- public:
-  explicit ShearHider(int tile_size) : tile_size_(tile_size) {}
-
-  class Buffers final : public Scratch {
-   public:
-    ClipGrid clip;
-    FragmentBuffer fragments;
-    TileDepth depth;
-    PixelBoxes boxes;
-    BlurScratch blur;
-    ShearScratch shear;
-  };
-
-  std::unique_ptr<Scratch> make_scratch() const override { return std::make_unique<Buffers>(); }
-
-  void hide(const HideInput& input, Scratch& scratch, FragmentList& out,
-            HideCounters& counters) const override {
-    auto& buffers = static_cast<Buffers&>(scratch);
-    const PixelRect& rect = input.samples->rect;
-    const PixelRect everywhere{0, 0, rect.width(), rect.height()};
-    buffers.fragments.begin(input);
-    buffers.depth.begin(rect, input.samples->samples_per_pixel);
-    for (size_t g = 0; g < input.grids.size(); ++g) {
-      ClipGrid& clip = buffers.clip;
-      clip.set(*input.grids[g].grid, input.raster_clip);
-      counters.micropolygons += uint64_t(clip.grid().micropolygon_count());
-      counters.nonfinite_dropped += clip.dropped_count();
-      const float size = std::max(std::abs(clip.z_min()), std::abs(clip.z_max()));
-      const float nearest = clip.z_min() - depth_margin * size;
-      if (nearest > buffers.depth.farthest(everywhere)) {
-        counters.micropolygons_culled += uint64_t(clip.grid().micropolygon_count());
-        continue;
-      }
-      uint64_t tested = 0;
-      for (const ClipSegment& segment : clip.segments())
-        tested += clip.moves() || input.features.lens
-                      ? hide_blurred(input, g, segment, nearest, buffers, counters)
-                      : hide_static(input, g, segment, buffers, counters);
-      counters.micropolygons_culled += uint64_t(clip.grid().micropolygon_count()) -
-                                       std::min(tested, uint64_t(clip.grid().micropolygon_count()));
-      if (input.grids[g].opaque && g + 1 < input.grids.size())
-        buffers.depth.update(pixels_of(*input.grids[g].grid, rect), buffers.fragments);
-    }
-    buffers.fragments.resolve(input, out);
-    counters.samples += input.samples->size();
-    counters.fragments += out.size();
-  }
-
- private:
-  /// Pixels that the grid may touch, relative to the first of `rect`.
-  static PixelRect pixels_of(const Grid& grid, const PixelRect& rect) {
-    const RasterBounds& r = grid.raster_bounds;
-    const auto pixel = [](float position, int first, int size) {
-      return int(std::clamp(position - float(first), 0.0f, float(size)));
-    };
-    return {pixel(r.x_min, rect.x0, rect.width()), pixel(r.y_min, rect.y0, rect.height()),
-            std::min(pixel(r.x_max, rect.x0, rect.width()) + 1, rect.width()),
-            std::min(pixel(r.y_max, rect.y0, rect.height()) + 1, rect.height())};
-  }
-
-  static uint64_t hide_static(const HideInput& input, size_t g, const ClipSegment& segment,
-                              Buffers& buffers, HideCounters& counters) {
-    StaticGridJob job;
-    job.test =
-        pixel_test_job(input, buffers.clip, segment, input.grids[g].opaque, buffers.fragments);
-    job.clip = &buffers.clip;
-    job.rect = input.samples->rect;
-    job.id0 = buffers.fragments.ids().id(g, 0);
-    job.y_stratified = input.samples->y_stratified;
-    job.depth = &buffers.depth;
-    job.boxes = &buffers.boxes;
-    job.counters = &counters;
-    return hide_static_grid(job);
-  }
-
-  uint64_t hide_blurred(const HideInput& input, size_t g, const ClipSegment& segment, float nearest,
-                        Buffers& buffers, HideCounters& counters) const {
-    ShearedGridJob sheared;
-    BlurredGridJob& job = sheared.blur;
-    job.test =
-        pixel_test_job(input, buffers.clip, segment, input.grids[g].opaque, buffers.fragments);
-    job.clip = &buffers.clip;
-    job.segment = &segment;
-    job.rect = input.samples->rect;
-    job.box = SampleBox(job.rect, input.features.lens ? input.lens_extent : 0.0f);
-    job.tile_size = tile_size_;
-    job.time_span = time_span(input, segment, size_t(buffers.clip.grid().vertex_count()));
-    job.z_nearest = nearest;
-    job.id0 = buffers.fragments.ids().id(g, 0);
-    job.scratch = &buffers.blur;
-    job.counters = &counters;
-    job.t_first = job.test.frame.t_begin, job.t_last = job.test.frame.t_last;
-    sheared.scratch = &buffers.shear;
-    return job.time_span.empty() ? 0 : hide_sheared_grid(sheared);
-  }
-
-  static SampleInterval time_span(const HideInput& input, const ClipSegment& s, size_t count) {
-    float z_min[2] = {s.z[0], INFINITY}, z_max[2] = {s.z[0], -INFINITY};
-    for (size_t i = 0; i < count; ++i) {
-      const float end = s.dz ? s.z[i] + s.dz[i] : s.z[i];
-      z_min[0] = std::min(z_min[0], s.z[i]), z_max[0] = std::max(z_max[0], s.z[i]);
-      z_min[1] = std::min(z_min[1], end), z_max[1] = std::max(z_max[1], end);
-    }
-    return depth_interval(z_min, z_max, input.near_clip, input.far_clip);
-  }
-
-  int tile_size_;
-};
-
-std::unique_ptr<Hider> make_shear(std::string_view arguments) {
-  int tile = 4;
-  if (!arguments.empty()) {
-    const char* end = arguments.data() + arguments.size();
-    const auto [stop, error] = std::from_chars(arguments.data(), end, tile);
-    if (error != std::errc() || stop != end || tile < 1 || tile > 64)
-      throw Error(fmt::format("hider shear: found \"{}\"; expected a tile size of 1 to 64 pixels",
-                              arguments));
-  }
-  return std::make_unique<ShearHider>(tile);
-}
-
-}  // namespace
 
 HiderDefinition hider_shear() {
   return {"shear",
           "samples sheared back into each grid's own space; shear:N sets tiles of N pixels",
-          make_shear};
+          [](std::string_view arguments) {
+            return make_shear_hider("shear", arguments, LittleBlur::sheared);
+          }};
 }
 
 }  // namespace tessera

@@ -140,9 +140,10 @@ TEST_CASE("help names every choice") {
   const ProgramResult result = run_tessera({"render", "--help"}, folder);
   CHECK(result.exit_code == 0);
   for (const char* word :
-       {"--spp", "--shading-rate", "--crop", "--threads", "--hider", "--shading", "--seed",
-        "--memory", "--stats", "--verbose", "--skip-existing", "bbox", "shear", "reyes", "gaussian",
-        "motion", "--heatmap", "interleave", "accumulate"}) {
+       {"--spp",           "--shading-rate", "--crop",    "--threads",  "--hider",
+        "--shading",       "--seed",         "--memory",  "--stats",    "--verbose",
+        "--skip-existing", "bbox",           "auto",      "shear",      "reyes",
+        "gaussian",        "motion",         "--heatmap", "interleave", "accumulate"}) {
     CHECK_THAT(result.out, Contains(word));
   }
 }

@@ -15,7 +15,7 @@ namespace {
 /// The hiders give the same fragments bit for bit, and bbox shares no bounds with shear and dual.
 void require_agreement(const TestBucket& bucket) {
   const FragmentList expected = bucket.hide("bbox");
-  for (const char* hider : {"shear", "shear:1", "shear:7", "pixar:1x1x1", "pixar:2x2x4",
+  for (const char* hider : {"auto", "shear", "shear:1", "shear:7", "pixar:1x1x1", "pixar:2x2x4",
                             "pixar:4x4x4", "pixar:3x1x5", "dual", "dual:2", "dual:5"}) {
     INFO(hider << ", " << expected.size() << " fragments expected");
     REQUIRE(same_fragments(expected, bucket.hide(hider)));

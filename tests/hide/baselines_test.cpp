@@ -50,7 +50,8 @@ TEST_CASE("Tests are counted for each pixel if somebody asks") {
     for (const bool lens : {false, true}) {
       const TestBucket bucket =
           random_bucket(12, {.motion = motion, .lens = lens}, {16, 8, 45, 38}, 7, 20);
-      for (const char* hider : {"bbox", "pixar:1x1x1", "pixar:2x2x4", "dual", "dual:3", "shear"}) {
+      for (const char* hider :
+           {"bbox", "pixar:1x1x1", "pixar:2x2x4", "dual", "dual:3", "shear", "auto"}) {
         INFO(hider << " motion " << motion << " lens " << lens);
         HideCounters quiet, counted;
         bucket.hide(hider, &quiet);

@@ -65,7 +65,8 @@ void require_layers(const TestBucket& bucket, size_t parity) {
   for (const HiderDefinition& definition : hider_registry()) {
     const std::string_view name = definition.name;
     // Those that sample anywhere and share the common coverage test.
-    if (name != "bbox" && name != "shear" && name != "dual" && name != "pixar") continue;
+    if (name != "bbox" && name != "auto" && name != "shear" && name != "dual" && name != "pixar")
+      continue;
     const FragmentList list = bucket.hide(definition.name);
     size_t hits = 0;
     for (size_t s = 0; s < bucket.samples.size(); ++s) {

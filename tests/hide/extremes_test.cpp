@@ -49,7 +49,7 @@ TEST_CASE("Hiders that share the coverage test agree bit for bit at the extremes
     for (int k = 0; k < extreme.count; ++k) {
       const TestBucket bucket = extreme.make(k);
       const FragmentList expected = bucket.hide("bbox");
-      for (const std::string spec : {"shear", "shear:1", "dual", "pixar"}) {
+      for (const std::string spec : {"auto", "shear", "shear:1", "dual", "pixar"}) {
         if (!is_registered(spec.substr(0, spec.find(':')))) continue;
         INFO(spec << " on " << extreme.name << ", variant " << k);
         CHECK(count_differences(expected, bucket.hide(spec)) == 0);
