@@ -51,7 +51,7 @@ TEST_CASE("threads, bucket size, hider and memory budget do not show in the imag
            {"--threads", "7", "--hider", "shear"},
            {"--hider", "dual:2"},
            {"--hider", "pixar:2x2x4"},
-           {"--hider", "auto", "--heatmap", "tests"},
+           {"--hider", "auto"},
            {"--bucket-size", "5"},
            {"--bucket-size", "16", "--threads", "3"},
            {"--bucket-size", "4096"},
