@@ -37,7 +37,7 @@ void run_case(BenchmarkContext& context, const char* name, double motion_pixels,
                       scene.bucket_columns,
                       HiderScene::bucket_size,
                       {scene.motion, scene.lens, false}},
-                     "shear");
+                     "auto");
   EmbreeFrame embree(scene);
   const EmbreeVariant variant = best_variant(embree);
   HideCounters counters;

@@ -192,14 +192,9 @@ void SamplePattern::fill_free(int px, int py, SampleBlock& block, size_t first,
     }
     return;
   }
-  if (!warps_.has_time()) {  // no order to keep: straight into the block
+  if (!warps_.has_time() && !warps_.has_lens()) {  // no order to keep: straight into the block
     scramble_positions(sobol[0], count, dimension_seed(0), float(px), block.x.data() + first);
     scramble_positions(sobol[1], count, dimension_seed(1), float(py), block.y.data() + first);
-    if (!warps_.has_lens()) return;
-    float *u = block.u.data() + first, *v = block.v.data() + first;
-    scramble_points(sobol[2], count, dimension_seed(2), u);
-    scramble_points(sobol[3], count, dimension_seed(3), v);
-    warps_.lens(u, v, count);
     return;
   }
   auto& c = points.coordinate;
@@ -208,11 +203,15 @@ void SamplePattern::fill_free(int px, int py, SampleBlock& block, size_t first,
   if (warps_.has_lens()) {
     scramble_points(sobol[2], count, dimension_seed(2), c[u_dimension].data());
     scramble_points(sobol[3], count, dimension_seed(3), c[v_dimension].data());
+    // Before the warp, which keeps the order of u but roughly: sides of the lens stay apart.
+    if (!warps_.has_time()) order_ascending(c[u_dimension].data(), count, points.order);
     warps_.lens(c[u_dimension].data(), c[v_dimension].data(), count);
   }
-  scramble_points(sobol[4], count, dimension_seed(4), c[t_dimension].data());
-  order_ascending(c[t_dimension].data(), count, points.order);
-  warps_.time(c[t_dimension].data(), count);
+  if (warps_.has_time()) {
+    scramble_points(sobol[4], count, dimension_seed(4), c[t_dimension].data());
+    order_ascending(c[t_dimension].data(), count, points.order);
+    warps_.time(c[t_dimension].data(), count);
+  }
   store_in_order(points, count, block, first);
 }
 
