@@ -27,6 +27,6 @@ float swept_growth(const HideInput& input, const ClipGrid& clip, const ClipSegme
 
 /// Grids that grow less than this are better boxed than sheared (`bench scaling`, the rows
 /// little_blur, is where it was measured).
-inline constexpr float boxed_growth = 6.0f;
+inline constexpr float boxed_growth = 8.0f;
 
 }  // namespace tessera

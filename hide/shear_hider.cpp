@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "hide/boxed_grid.h"
-#include "hide/sheared_grid.h"
-#include "hide/depth_margin.h"
+#include "hide/grid_loop.h"
 #include "hide/hide.h"
+#include "hide/sheared_grid.h"
 #include "hide/static_grid.h"
 
 namespace tessera {
@@ -18,11 +18,8 @@ class ShearHider final : public Hider {
   ShearHider(int tile_size, LittleBlur little_blur)
       : tile_size_(tile_size), little_blur_(little_blur) {}
 
-  class Buffers final : public Scratch {
+  class Buffers final : public Scratch, public GridLoop {
    public:
-    ClipGrid clip;
-    FragmentBuffer fragments;
-    TileDepth depth;
     PixelBoxes boxes;
     BlurScratch blur;
     ShearScratch shear;
@@ -33,46 +30,13 @@ class ShearHider final : public Hider {
   void hide(const HideInput& input, Scratch& scratch, FragmentList& out,
             HideCounters& counters) const override {
     auto& buffers = static_cast<Buffers&>(scratch);
-    const PixelRect& rect = input.samples->rect;
-    const PixelRect everywhere{0, 0, rect.width(), rect.height()};
-    buffers.fragments.begin(input);
-    buffers.depth.begin(rect, input.samples->samples_per_pixel);
-    for (size_t g = 0; g < input.grids.size(); ++g) {
-      ClipGrid& clip = buffers.clip;
-      clip.set(*input.grids[g].grid, input.raster_clip);
-      counters.micropolygons += uint64_t(clip.grid().micropolygon_count());
-      counters.nonfinite_dropped += clip.dropped_count();
-      const float size = std::max(std::abs(clip.z_min()), std::abs(clip.z_max()));
-      const float nearest = clip.z_min() - depth_margin * size;
-      if (nearest > buffers.depth.farthest(everywhere)) {
-        counters.micropolygons_culled += uint64_t(clip.grid().micropolygon_count());
-        continue;
-      }
-      uint64_t tested = 0;
-      for (const ClipSegment& segment : clip.segments())
-        tested += hide_segment(input, g, segment, nearest, buffers, counters);
-      counters.micropolygons_culled += uint64_t(clip.grid().micropolygon_count()) -
-                                       std::min(tested, uint64_t(clip.grid().micropolygon_count()));
-      if (input.grids[g].opaque && g + 1 < input.grids.size())
-        buffers.depth.update(pixels_of(*input.grids[g].grid, rect), buffers.fragments);
-    }
-    buffers.fragments.resolve(input, out);
-    counters.samples += input.samples->size();
-    counters.fragments += out.size();
+    hide_grids(input, buffers, out, counters,
+               [&](size_t g, const ClipSegment& segment, float nearest) {
+                 return hide_segment(input, g, segment, nearest, buffers, counters);
+               });
   }
 
  private:
-  /// Pixels that the grid may touch, relative to the first of `rect`.
-  static PixelRect pixels_of(const Grid& grid, const PixelRect& rect) {
-    const RasterBounds& r = grid.raster_bounds;
-    const auto pixel = [](float position, int first, int size) {
-      return int(std::clamp(position - float(first), 0.0f, float(size)));
-    };
-    return {pixel(r.x_min, rect.x0, rect.width()), pixel(r.y_min, rect.y0, rect.height()),
-            std::min(pixel(r.x_max, rect.x0, rect.width()) + 1, rect.width()),
-            std::min(pixel(r.y_max, rect.y0, rect.height()) + 1, rect.height())};
-  }
-
   uint64_t hide_segment(const HideInput& input, size_t g, const ClipSegment& segment, float nearest,
                         Buffers& buffers, HideCounters& counters) const {
     if (!buffers.clip.moves() && !input.features.lens)

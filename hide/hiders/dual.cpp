@@ -6,10 +6,9 @@
 #include <charconv>
 
 #include "base/error.h"
-#include "hide/depth_margin.h"
 #include "hide/dual_grid.h"
+#include "hide/grid_loop.h"
 #include "hide/hide.h"
-#include "hide/tile_depth.h"
 
 namespace tessera {
 namespace {
@@ -18,11 +17,8 @@ class DualHider final : public Hider {
  public:
   explicit DualHider(int tile_size) : tile_size_(tile_size) {}
 
-  class Buffers final : public Scratch {
+  class Buffers final : public Scratch, public GridLoop {
    public:
-    ClipGrid clip;
-    FragmentBuffer fragments;
-    TileDepth depth;
     DualScratch dual;
   };
 
@@ -31,28 +27,9 @@ class DualHider final : public Hider {
   void hide(const HideInput& input, Scratch& scratch, FragmentList& out,
             HideCounters& counters) const override {
     auto& buffers = static_cast<Buffers&>(scratch);
-    const PixelRect& rect = input.samples->rect;
-    const PixelRect everywhere{0, 0, rect.width(), rect.height()};
-    buffers.fragments.begin(input);
-    buffers.depth.begin(rect, input.samples->samples_per_pixel);
-    for (size_t g = 0; g < input.grids.size(); ++g) {
-      ClipGrid& clip = buffers.clip;
-      clip.set(*input.grids[g].grid, input.raster_clip);
-      const auto count = uint64_t(clip.grid().micropolygon_count());
-      counters.micropolygons += count;
-      counters.nonfinite_dropped += clip.dropped_count();
-      const float size = std::max(std::abs(clip.z_min()), std::abs(clip.z_max()));
-      uint64_t tested = 0;
-      if (clip.z_min() - depth_margin * size <= buffers.depth.farthest(everywhere)) {
-        for (const ClipSegment& segment : clip.segments())
-          tested += hide_segment(input, g, segment, buffers, counters);
-        if (input.grids[g].opaque) buffers.depth.update(everywhere, buffers.fragments);
-      }
-      counters.micropolygons_culled += count - std::min(tested, count);
-    }
-    buffers.fragments.resolve(input, out);
-    counters.samples += input.samples->size();
-    counters.fragments += out.size();
+    hide_grids(input, buffers, out, counters, [&](size_t g, const ClipSegment& segment, float) {
+      return hide_segment(input, g, segment, buffers, counters);
+    });
   }
 
  private:

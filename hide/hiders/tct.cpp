@@ -10,12 +10,10 @@
 #include <charconv>
 
 #include "base/error.h"
-#include "hide/clip_grid.h"
-#include "hide/depth_margin.h"
+#include "hide/grid_loop.h"
 #include "hide/hide.h"
 #include "hide/lens_lines.h"
 #include "hide/tct_test.h"
-#include "hide/tile_depth.h"
 
 namespace tessera {
 namespace {
@@ -25,11 +23,8 @@ class TctHider final : public Hider {
   /// 0 lines: samples anywhere on the lens.
   explicit TctHider(int line_count) : line_count_(line_count) {}
 
-  class Buffers final : public Scratch {
+  class Buffers final : public Scratch, public GridLoop {
    public:
-    ClipGrid clip;
-    FragmentBuffer fragments;
-    TileDepth depth;
     LensLines lines;
     bool by_line = false;
     std::vector<PixelSpan> spans;
@@ -48,29 +43,11 @@ class TctHider final : public Hider {
             HideCounters& counters) const override {
     auto& buffers = static_cast<Buffers&>(scratch);
     const SampleBlock& samples = *input.samples;
-    const PixelRect everywhere{0, 0, samples.rect.width(), samples.rect.height()};
-    buffers.fragments.begin(input);
-    buffers.depth.begin(samples.rect, samples.samples_per_pixel);
     buffers.by_line = line_count_ > 0 && input.features.lens && !samples.tuple.empty();
     if (buffers.by_line) buffers.lines.arrange(samples, line_count_);
-    for (size_t g = 0; g < input.grids.size(); ++g) {
-      ClipGrid& clip = buffers.clip;
-      clip.set(*input.grids[g].grid, input.raster_clip);
-      const auto count = uint64_t(clip.grid().micropolygon_count());
-      counters.micropolygons += count;
-      counters.nonfinite_dropped += clip.dropped_count();
-      const float size = std::max(std::abs(clip.z_min()), std::abs(clip.z_max()));
-      uint64_t tested = 0;
-      if (clip.z_min() - depth_margin * size <= buffers.depth.farthest(everywhere)) {
-        for (const ClipSegment& segment : clip.segments())
-          tested += hide_segment(input, g, segment, buffers, counters);
-        if (input.grids[g].opaque) buffers.depth.update(everywhere, buffers.fragments);
-      }
-      counters.micropolygons_culled += count - std::min(tested, count);
-    }
-    buffers.fragments.resolve(input, out);
-    counters.samples += samples.size();
-    counters.fragments += out.size();
+    hide_grids(input, buffers, out, counters, [&](size_t g, const ClipSegment& segment, float) {
+      return hide_segment(input, g, segment, buffers, counters);
+    });
   }
 
  private:
