@@ -1,4 +1,4 @@
-/// The extremes table: where formulas break, what the default hider sees there, and what long
+/// The extremes table: where formulas break, what the sheared hider sees there, and what long
 /// double rays and the brute-force hider see.
 
 #include "bench/harness/benchmark.h"

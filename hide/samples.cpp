@@ -26,8 +26,8 @@ namespace {
 
 enum Dimension { x_dimension, y_dimension, u_dimension, v_dimension, t_dimension };
 
-/// Sorts the samples of a pixel by time. A power of two of scrambled Sobol coordinates has exactly
-/// one in each of as many equal strata, so each knows its rank at once.
+/// Sorts the samples of a pixel by a coordinate. A power of two of scrambled Sobol coordinates has
+/// exactly one in each of as many equal strata, so each knows its rank at once.
 void order_ascending(const float* t, size_t count, std::vector<uint32_t>& order) {
   if (std::has_single_bit(count)) {
     for (size_t k = 0; k < count; ++k) order[size_t(t[k] * float(count))] = uint32_t(k);

@@ -272,8 +272,6 @@ bool shear_block(const ShearPass& pass, int u_count, const GridBlock& block, She
   const BendSlack bend = bend_slack(pass, e);
   box_micropolygons(u_count, block, bend, out);
   out.map = pass.map;
-  out.coarse_extent = {e.places.x_min - e.x_coarse, e.places.y_min - e.y_coarse,
-                       e.places.x_max + e.x_coarse, e.places.y_max + e.y_coarse};
   out.slack = e.slack + std::max(bend.x_moved, bend.y_moved);
   return out.extent.x_max - out.extent.x_min < hwy::HighestValue<float>() &&
          out.extent.y_max - out.extent.y_min < hwy::HighestValue<float>();

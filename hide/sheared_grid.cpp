@@ -204,7 +204,7 @@ class ShearedVisit {
       return visit(block, {piece.begin, middle}, depth + 1) +
              visit(block, {middle, piece.end}, depth + 1);
     }
-    if (fit == Fit::hopeless || std::max(block.i1 - block.i0, block.j1 - block.j0) <= 8)
+    if (std::max(block.i1 - block.i0, block.j1 - block.j0) <= 8)
       return hide_blurred_block(blur_in(piece), block);
     uint64_t micropolygons = 0;
     const int i_middle = (block.i0 + block.i1 + 1) / 2, j_middle = (block.j0 + block.j1 + 1) / 2;
@@ -217,7 +217,7 @@ class ShearedVisit {
   }
 
  private:
-  enum class Fit { good, slack, turning, hopeless };
+  enum class Fit { good, slack, turning };
 
   Fit try_fit(const GridBlock& block, const TimePiece& piece, ShearedBlock& sheared) const {
     const int u_count = blur_.clip->u_count();

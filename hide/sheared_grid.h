@@ -23,9 +23,8 @@ struct ShearedBlock {
   /// micropolygon covers are mapped to.
   AlignedVector<float> boxes[4];
   size_t stride = 0;
-  RasterBounds extent;         ///< of all boxes
-  RasterBounds coarse_extent;  ///< where covered samples are before the bend is taken in
-  float slack = 0;             ///< the largest, pixels
+  RasterBounds extent;  ///< of all boxes
+  float slack = 0;      ///< the largest, pixels
 
   /// Makes room for the block of a grid.
   void begin(int u_count, const GridBlock& block);
