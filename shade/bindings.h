@@ -43,6 +43,8 @@ class ShaderBindings {
   const Camera& camera() const { return *setup_.camera; }
   Diagnostics& diagnostics() const { return *setup_.diagnostics; }
   FrameTextures& textures() const { return *textures_; }
+  /// Lights of the scene whose shadows are looked up at a rate of their own.
+  size_t light_term_count() const { return 0; }
   /// Camera units in one world unit.
   float camera_length_of_world() const { return camera_length_of_world_; }
 

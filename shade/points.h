@@ -39,6 +39,8 @@ struct ShadingPoints {
   /// displacement, which must not depend on how a surface was diced): nothing is filtered then.
   Vec3Input dPdx, dPdy;
   StFootprint st_footprint;
+  /// The change of the unit normal likewise, for lobes to be widened by. Null x: not known.
+  Vec3Input dNdx, dNdy;
   /// cross(dPdx, dPdy) times this sign points outward.
   float normal_sign = 1.0f;
   std::vector<PrimvarView> primvars;

@@ -35,11 +35,26 @@ struct ShadeInput {
   const FragmentList* fragments = nullptr;
   std::span<const std::shared_ptr<const Grid>> grids;  ///< as FragmentList::grid counts them
   const SampleBlock* samples = nullptr;
+  bool wants_cells = false;  ///< fill ShadedFragments::cell
+  /// Where the points shaded for this bucket lie on the raster is appended here, each point of the
+  /// frame once, in the bucket that first needs it; null: nobody asks.
+  std::vector<glm::vec2>* shaded_at = nullptr;
 };
 
-/// Per fragment, linear: colour Ci already multiplied by opacity, opacity Oi.
+/// Per fragment, linear: colour Ci already multiplied by opacity, opacity Oi. A fragment whose
+/// shader failed may be NaN in Ci: its sample then counts for nothing.
 struct ShadedFragments {
   std::array<std::vector<float>, 3> Ci, Oi;
+  /// [term] What each light whose shadows have a rate of their own adds to Ci where nothing shadows
+  /// it (shade/shader.h).
+  std::vector<std::array<std::vector<float>, 3>> light_terms;
+  std::vector<uint32_t> cell;  ///< a hash of the cell that was shaded for it, if asked for
+};
+
+/// What a fragment asks a memo of shaded values for: the name of its cell, and of the block of 2 x
+/// 2 cells that graphics hardware would shade at once. Equal names, equal values.
+struct ShadingRequest {
+  uint64_t point = 0, quad = 0;
 };
 
 struct ShadeCounters {
@@ -61,21 +76,36 @@ class Shading {
  public:
   virtual ~Shading() = default;
   virtual void shade(const ShadeInput& input, ShadedFragments& out, ShadeCounters& counters) = 0;
+  /// Appends what fragment `fragment` asks for: one request or, if the mode interpolates, several.
+  /// For measuring; shades nothing.
+  virtual void requests(const ShadeInput& input, size_t fragment,
+                        std::vector<ShadingRequest>& out) = 0;
 };
 
 /// The shaders, lights and textures of a scene, bound once per frame.
 class ShaderBindings;
 
+/// What a shading mode is made for.
+struct ShadingFrame {
+  std::shared_ptr<const ShaderBindings> bindings;
+  bool motion = false, lens = false;  ///< as in HideFeatures
+  /// Frequency in cycles per pixel within which a share of the pixel filter's energy lies; null: no
+  /// filter to speak of.
+  std::function<double(double energy_share)> pixel_filter_band_limit{};
+  /// Area of a micropolygon over that of a shading cell, as far as the settings say.
+  float dicing_ratio = 1.0f;
+};
+
 /// A shading mode, one file of shade/modes/ each. `--shading name:arguments` picks and tunes it.
 struct ShadingModeDefinition {
   const char* name;
   const char* help;
-  std::unique_ptr<Shading> (*make)(std::string_view arguments,
-                                   std::shared_ptr<const ShaderBindings> bindings);
+  /// Throws Error on bad arguments.
+  std::unique_ptr<Shading> (*make)(std::string_view arguments, const ShadingFrame& frame);
 };
 std::span<const ShadingModeDefinition> shading_mode_registry();
-std::unique_ptr<Shading> make_shading(std::string_view spec,
-                                      std::shared_ptr<const ShaderBindings> bindings);
+/// `spec` is "name" or "name:arguments"; throws Error that lists the choices when unknown.
+std::unique_ptr<Shading> make_shading(std::string_view spec, const ShadingFrame& frame);
 
 /// Looks up every shader and light of the scene; unknown ones warn once and use the defaults.
 std::shared_ptr<const ShaderBindings> bind_shaders(const ShadeSetup& setup);

@@ -25,6 +25,9 @@ const char* name_of(ShaderKind kind);
 struct SurfaceColors {
   Vec3Array Ci;  ///< colour sent towards the eye, already multiplied by Oi
   Vec3Array Oi;  ///< opacity
+  /// [term] What a light whose shadows are looked up at a rate of their own would add to Ci if
+  /// nothing shadowed it. As many as ShaderBindings::light_term_count().
+  std::vector<Vec3Array> light_terms{};
 };
 
 struct ShaderDefinition {

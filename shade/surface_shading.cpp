@@ -1,6 +1,8 @@
 #include "shade/surface_shading.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tessera {
 namespace {
@@ -19,15 +21,22 @@ glm::vec3 clamped(const glm::vec3& opacity) {
 }
 
 /// Returns how many points were dropped.
-uint64_t drop_nonfinite(const ShadingPoints& points, SurfaceColors& out) {
+uint64_t drop_nonfinite(const ShadingPoints& points, FailedPoint failed, SurfaceColors& out) {
+  const auto all_finite = [&](int i) {
+    return finite(out.Ci[i]) && finite(out.Oi[i]) &&
+           std::ranges::all_of(out.light_terms, [&](const auto& term) { return finite(term[i]); });
+  };
+  const glm::vec3 color(failed == FailedPoint::black ? 0.0f
+                                                     : std::numeric_limits<float>::quiet_NaN());
   uint64_t dropped = 0;
   for (int i = 0; i < points.count; ++i) {
-    if (finite(out.Ci[i]) && finite(out.Oi[i])) {
+    if (all_finite(i)) {
       out.Oi.set(i, clamped(out.Oi[i]));
       continue;
     }
-    out.Ci.set(i, glm::vec3(0.0f));
+    out.Ci.set(i, color);
     out.Oi.set(i, clamped(points.Os[i]));
+    for (Vec3Array& term : out.light_terms) term.set(i, glm::vec3(0.0f));
     ++dropped;
   }
   return dropped;
@@ -36,15 +45,18 @@ uint64_t drop_nonfinite(const ShadingPoints& points, SurfaceColors& out) {
 }  // namespace
 
 void shade_surface(const ShaderBindings& bindings, const SurfaceBinding& surface,
-                   const ShadingPoints& points, SurfaceColors& out, ShadeCounters& counters) {
+                   const ShadingPoints& points, FailedPoint failed, SurfaceColors& out,
+                   ShadeCounters& counters) {
   out.Ci.reset(points.count);
   out.Oi.reset(points.count);
+  out.light_terms.resize(bindings.light_term_count());
+  for (Vec3Array& term : out.light_terms) term.reset(points.count);
   const ShaderDefinition& definition = *surface.surface.definition;
   const ShaderContext context(surface.surface, points,
                               {surface.lights, &bindings.textures(), &counters});
   definition.surface(context, out);
   counters.points_shaded += uint64_t(points.count);
-  const uint64_t dropped = drop_nonfinite(points, out);
+  const uint64_t dropped = drop_nonfinite(points, failed, out);
   if (dropped == 0) return;
   counters.nonfinite_dropped += dropped;
   bindings.diagnostics().warn_once(

@@ -5,10 +5,17 @@
 
 namespace tessera {
 
+/// What becomes of a point where the shader gave a value that is not finite.
+enum class FailedPoint {
+  black,  ///< no colour: for points that are interpolated between, so that nothing spreads
+  unseen  ///< NaN in Ci: the film leaves out every sample that sees it
+};
+
 /// Fills `out` with finite colours and opacities in [0, 1]. A point where the shader gave a value
-/// that is not finite is dropped: it gets no colour and the surface's own opacity, so that nothing
-/// spreads and the hole shows; it is counted, and the shader named once.
+/// that is not finite is dropped: it gets the surface's own opacity and the colour that `failed`
+/// says; it is counted, and the shader named once.
 void shade_surface(const ShaderBindings& bindings, const SurfaceBinding& surface,
-                   const ShadingPoints& points, SurfaceColors& out, ShadeCounters& counters);
+                   const ShadingPoints& points, FailedPoint failed, SurfaceColors& out,
+                   ShadeCounters& counters);
 
 }  // namespace tessera

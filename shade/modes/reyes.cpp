@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "base/hash.h"
+#include "shade/cell_name.h"
 #include "shade/grid_points.h"
 #include "shade/surface_shading.h"
 
@@ -85,6 +86,17 @@ class ReyesShading : public Shading {
     }
   }
 
+  void requests(const ShadeInput& input, size_t fragment,
+                std::vector<ShadingRequest>& out) override {
+    const Grid& grid = *input.grids[input.fragments->grid[fragment]];
+    const Place place = place_of(grid, *input.fragments, fragment);
+    const uint64_t row = uint64_t(grid.u_count) + 1, name = grid_name(grid.id);
+    for (size_t k = 0; k < (grid.attributes().smooth_shading ? 3 : 1); ++k) {
+      const uint64_t i = place.corner[k] % row, j = place.corner[k] / row;
+      out.push_back({cell_name(name, i, j), cell_name(name, i / 2, j / 2)});
+    }
+  }
+
  private:
   const VertexColors& vertex_colors(const Grid& grid, ShadeCounters& counters) {
     VertexColors& colors = attachment_of(grid);
@@ -105,7 +117,8 @@ class ReyesShading : public Shading {
   void shade_vertices(const Grid& grid, VertexColors& colors, ShadeCounters& counters) const {
     const GridPoints batch(grid, bindings_->camera(), Footprints::over_micropolygons);
     SurfaceColors shaded;
-    shade_surface(*bindings_, bindings_->of(grid.attributes()), batch.points(), shaded, counters);
+    shade_surface(*bindings_, bindings_->of(grid.attributes()), batch.points(), FailedPoint::black,
+                  shaded, counters);
     colors.Ci = interleaved(shaded.Ci);
     colors.Oi = interleaved(shaded.Oi);
     const std::array<float, 3> opaque{1.0f, 1.0f, 1.0f};
@@ -124,13 +137,12 @@ class ReyesShading : public Shading {
 
 ShadingModeDefinition shading_mode_reyes() {
   return {"reyes", "shade the vertices of visible grids at the shading rate and interpolate",
-          [](std::string_view arguments,
-             std::shared_ptr<const ShaderBindings> bindings) -> std::unique_ptr<Shading> {
+          [](std::string_view arguments, const ShadingFrame& frame) -> std::unique_ptr<Shading> {
             if (!arguments.empty()) {
               throw Error(fmt::format("shading mode \"reyes\" takes no arguments, found \"{}\"",
                                       arguments));
             }
-            return std::make_unique<ReyesShading>(std::move(bindings));
+            return std::make_unique<ReyesShading>(frame.bindings);
           }};
 }
 

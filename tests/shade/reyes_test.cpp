@@ -30,9 +30,9 @@ TestBucket make_bucket(std::vector<std::shared_ptr<const Grid>> grids, int sampl
 TEST_CASE("unknown shading modes list the choices, and reyes takes no arguments") {
   TestScene test;
   const auto bindings = test.bind();
-  CHECK_THROWS_WITH(make_shading("rays", bindings), Catch::Contains("reyes"));
-  CHECK_THROWS_AS(make_shading("reyes:7", bindings), Error);
-  CHECK(make_shading("reyes", bindings) != nullptr);
+  CHECK_THROWS_WITH(make_shading("rays", {bindings}), Catch::Contains("reyes"));
+  CHECK_THROWS_AS(make_shading("reyes:7", {bindings}), Error);
+  CHECK(make_shading("reyes", {bindings}) != nullptr);
 }
 
 TEST_CASE("fragments interpolate the vertex colours of their triangle") {
@@ -42,7 +42,7 @@ TEST_CASE("fragments interpolate the vertex colours of their triangle") {
   const auto Cs = add_primvar(*grid, "Cs", ValueType::color, [](float u, float v) {
     return std::vector<float>{u, v, 2.0f * u - v};
   });
-  const auto shading = make_shading("reyes", test.bind());
+  const auto shading = make_shading("reyes", {test.bind()});
   TestBucket bucket(4);
   bucket.grids = {grid};
   bucket.add(0, 2 * 3 + 0, 0.25f, 0.5f, 3.0f);  // a = (1/2, 1/2), b = (1, 1/2), d = (1, 1)
@@ -71,7 +71,7 @@ TEST_CASE("ShadingInterpolation constant shows vertex a of each micropolygon") {
   const auto Cs = add_primvar(*grid, "Cs", ValueType::color, [](float u, float v) {
     return std::vector<float>{u, v, 0.0f};
   });
-  const auto shading = make_shading("reyes", test.bind());
+  const auto shading = make_shading("reyes", {test.bind()});
   const TestBucket bucket = make_bucket({grid}, 8, 0);
   ShadedFragments out;
   ShadeCounters counters;
@@ -87,7 +87,7 @@ TEST_CASE("only grids with a visible fragment are shaded, once, whoever asks") {
   TestScene test;
   const Surface& surface = test.add_surface("constant");
   const auto seen = make_square(surface, 4, 3.0f, 0), hidden = make_square(surface, 4, 4.0f, 1);
-  const auto shading = make_shading("reyes", test.bind());
+  const auto shading = make_shading("reyes", {test.bind()});
   TestBucket bucket = make_bucket({seen}, 10, 0);
   bucket.grids.push_back(hidden);
   ShadedFragments out;
@@ -114,7 +114,7 @@ TEST_CASE("many threads asking in any order get the same bits as one") {
   const auto bindings = test.bind();
   const int buckets = 16, samples = 300;
   const auto shade_all = [&](int thread_count, ShadeCounters& total) {
-    const auto shading = make_shading("reyes", bindings);
+    const auto shading = make_shading("reyes", {bindings});
     const auto grids = make_grids();
     std::vector<ShadedFragments> results(buckets);
     std::vector<ShadeCounters> counters(size_t(thread_count), ShadeCounters{});
@@ -157,7 +157,8 @@ TEST_CASE("values that are not finite are dropped, counted and blamed on their s
   const GridPoints batch(*grid, bindings->camera(), Footprints::over_micropolygons);
   SurfaceColors out;
   ShadeCounters counters;
-  shade_surface(*bindings, bindings->of(grid->attributes()), batch.points(), out, counters);
+  shade_surface(*bindings, bindings->of(grid->attributes()), batch.points(), FailedPoint::black,
+                out, counters);
   CHECK(counters.nonfinite_dropped == 1 + 3);
   CHECK(out.Ci[0] == glm::vec3(0.0f));
   CHECK(out.Oi[0] == glm::vec3(0.5f, 1.0f, 0.0f));
