@@ -1,6 +1,6 @@
 #pragma once
-/// The shaded cells of one grid, for as long as the grid lives. Whoever first asks for a cell shades
-/// it; what it is worth is a property of the grid, so it does not matter who that was.
+/// The shaded cells of one grid, for as long as the grid lives. Whoever first asks for a cell
+/// shades it; what it is worth is a property of the grid, so it does not matter who that was.
 
 #include <condition_variable>
 #include <mutex>
@@ -28,8 +28,8 @@ class CellMemo : public GridAttachment {
   /// `values` of the cells of `slots`, [slot][float], `places` telling which of the slots are new.
   void publish(std::span<const uint32_t> slots, std::span<const uint32_t> places,
                std::span<const float> values);
-  /// Copies the values of `slots`, waiting for those that others are shading. Throws Error if one of
-  /// them has given up.
+  /// Copies the values of `slots`, waiting for those that others are shading. Throws Error if one
+  /// of them has given up.
   void read(std::span<const uint32_t> slots, std::span<float> values);
   /// Says that claimed cells will never be published.
   void give_up();

@@ -28,9 +28,6 @@ class VertexReader {
   float value(const float* f) const {
     return weight_[0] * f[corner_[0]] + weight_[1] * f[corner_[1]] + weight_[2] * f[corner_[2]];
   }
-  glm::vec3 value(const Grid& grid, const float* (Grid::*run)(int) const) const {
-    return {value((grid.*run)(0)), value((grid.*run)(1)), value((grid.*run)(2))};
-  }
   /// The change of `f` over the cell along its x and y axes.
   glm::vec2 change(const float* f) const {
     const float di = (f[right_] - f[left_]) * per_i_, dj = (f[above_] - f[below_]) * per_j_;

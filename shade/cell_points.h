@@ -1,6 +1,7 @@
 #pragma once
 /// Points anywhere on the grids of one surface as a batch of shading points.
 
+#include <span>
 #include <vector>
 
 #include "cameras/camera.h"

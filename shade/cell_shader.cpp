@@ -54,7 +54,8 @@ void CellShader::give(std::span<const uint32_t> cell_of_fragment, std::span<cons
   const auto give_run = [&](std::array<std::vector<float>, 3>& to, size_t offset) {
     for (size_t c = 0; c < 3; ++c) {
       to[c].resize(count);
-      for (size_t f = 0; f < count; ++f) to[c][f] = values[cell_of_fragment[f] * stride + offset + c];
+      for (size_t f = 0; f < count; ++f)
+        to[c][f] = values[cell_of_fragment[f] * stride + offset + c];
     }
   };
   give_run(out.Ci, 0), give_run(out.Oi, 3);

@@ -19,8 +19,8 @@ class CellShader {
   const ShaderBindings& bindings() const { return *bindings_; }
   size_t floats_per_cell() const { return 6 + 3 * bindings_->light_term_count(); }
 
-  /// Shades cells in batches, one surface after the other. `values` is [cell][float]. Where a shader
-  /// fails, Ci is NaN.
+  /// Shades cells in batches, one surface after the other. `values` is [cell][float]. Where a
+  /// shader fails, Ci is NaN.
   void shade(std::span<const CellPoint> cells, std::span<float> values,
              ShadeCounters& counters) const;
   /// Gives each fragment the colours of its cell: values[cell_of_fragment[fragment]][float].

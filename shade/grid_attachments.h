@@ -10,12 +10,12 @@
 
 namespace tessera {
 
-/// Hands out the attachment of a grid, making it for whoever asks first. Thread safe. All users of a
-/// grid must go through one GridAttachments, with one type.
+/// Hands out the attachment of a grid, making it for whoever asks first. Thread safe. All users of
+/// a grid must go through one GridAttachments, with one type.
 class GridAttachments {
  public:
-  /// `make` gives a std::unique_ptr<Attachment>. It should be cheap: it runs under a lock that other
-  /// grids share. Leave work to a std::once_flag of the attachment.
+  /// `make` gives a std::unique_ptr<Attachment>. It should be cheap: it runs under a lock that
+  /// other grids share. Leave work to a std::once_flag of the attachment.
   template <class Attachment, class Make>
   Attachment& of(const Grid& grid, const Make& make) {
     const std::scoped_lock lock(locks_[grid_name(grid.id) % locks_.size()]);

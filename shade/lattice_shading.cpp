@@ -1,6 +1,7 @@
 #include "shade/lattice_shading.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "shade/cell_name.h"
 
@@ -37,6 +38,10 @@ class GiveUp {
 };
 
 }  // namespace
+
+int cells_per_edge(const ShadingFrame& frame) {
+  return int(std::clamp(std::round(std::sqrt(frame.dicing_ratio)), 1.0f, 64.0f));
+}
 
 struct LatticeShading::BucketCells {
   std::vector<GridCells> grids;            ///< as the input's
@@ -115,8 +120,7 @@ void LatticeShading::shade_claimed(const ShadeInput& input, BucketCells& bucket,
   }
 }
 
-void LatticeShading::shade(const ShadeInput& input, ShadedFragments& out,
-                           ShadeCounters& counters) {
+void LatticeShading::shade(const ShadeInput& input, ShadedFragments& out, ShadeCounters& counters) {
   BucketCells bucket = cells_of(input, counters);
   GiveUp give_up(bucket.grids);
   for (GridCells& grid : bucket.grids)

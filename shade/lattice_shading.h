@@ -1,6 +1,6 @@
 #pragma once
-/// Decoupled shading: samples of a surface point find the cell that holds it in the shading space of
-/// its grid, and each cell is shaded once, at the point of the grid nearest its centre.
+/// Decoupled shading: samples of a surface point find the cell that holds it in the shading space
+/// of its grid, and each cell is shaded once, at the point of the grid nearest its centre.
 
 #include <functional>
 
@@ -9,6 +9,10 @@
 #include "shade/grid_attachments.h"
 
 namespace tessera {
+
+/// Cells along the edge of a micropolygon of the size that the settings ask for: what is left to go
+/// by where a grid has no place on the raster.
+int cells_per_edge(const ShadingFrame& frame);
 
 class LatticeShading : public Shading {
  public:

@@ -22,9 +22,10 @@ void read_one(const char* mode, std::string_view argument,
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !(value > k.above) ||
         !(value < k.below)) {
-      throw Error(fmt::format("shading mode \"{}\": {} ({}): expected a number above {} and below "
-                              "{}, found \"{}\"",
-                              mode, k.key, k.what, k.above, k.below, text));
+      throw Error(
+          fmt::format("shading mode \"{}\": {} ({}): expected a number above {} and below "
+                      "{}, found \"{}\"",
+                      mode, k.key, k.what, k.above, k.below, text));
     }
     *k.value = value;
     return;

@@ -1,6 +1,6 @@
 #pragma once
-/// The cells of a shading space: an affine map from the raster to lattice coordinates, in which cell
-/// (i, j) is the unit square from (i, j).
+/// The cells of a shading space: an affine map from the raster to lattice coordinates, in which
+/// cell (i, j) is the unit square from (i, j).
 
 #include <glm/glm.hpp>
 

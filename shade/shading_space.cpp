@@ -7,8 +7,8 @@
 namespace tessera {
 namespace {
 
-/// A cell reaches no farther over the surface than it would if the surface were seen this many times
-/// less edge-on: as far as anisotropic texture filters go.
+/// A cell reaches no farther over the surface than it would if the surface were seen this many
+/// times less edge-on: as far as anisotropic texture filters go.
 constexpr float most_foreshortening = 16.0f;
 
 struct Range {
@@ -32,8 +32,8 @@ ShadingSpace::ShadingSpace(const Grid& grid, const Camera& camera,
   }
 }
 
-/// False where some vertex has no place on the raster at shutter open, or one too far away for cells
-/// to be counted.
+/// False where some vertex has no place on the raster at shutter open, or one too far away for
+/// cells to be counted.
 bool ShadingSpace::place_vertices(const Camera& camera, const ShadingSpaceSettings& settings) {
   const RasterClipMap& map = camera.raster_clip();
   const float *Px = grid_.P(0, 0), *Py = grid_.P(0, 1), *Pz = grid_.P(0, 2);

@@ -1,9 +1,9 @@
 #pragma once
-/// The shading space of a grid: where its points lie on the raster at shutter open, seen through the
-/// lens centre, cut into cells (K. Vaidyanathan et al., "Adaptive image space shading for motion and
-/// defocus blur", HPG 2012, sections 3 and 3.4). Every sample of a surface point, whenever and
-/// through whatever part of the lens it was seen, maps to the same place here: from the point itself
-/// rather than from a velocity, so the map is exact.
+/// The shading space of a grid: where its points lie on the raster at shutter open, seen through
+/// the lens centre, cut into cells (K. Vaidyanathan et al., "Adaptive image space shading for
+/// motion and defocus blur", HPG 2012, sections 3 and 3.4). Every sample of a surface point,
+/// whenever and through whatever part of the lens it was seen, maps to the same place here: from
+/// the point itself rather than from a velocity, so the map is exact.
 ///
 /// A grid that is not wholly in front of the camera plane at shutter open has no such place. Its
 /// space is then its own parameters, some cells to a micropolygon (`parametric()`).
@@ -30,7 +30,8 @@ struct ShadingCell {
 struct ShadingSpaceSettings {
   ShadingExtents extents;
   LatticeAnchor anchor = LatticeAnchor::raster;
-  int cells_per_edge = 1;  ///< of a micropolygon, along u and along v, where the space is parametric
+  int cells_per_edge =
+      1;  ///< of a micropolygon, along u and along v, where the space is parametric
 };
 
 class ShadingSpace {

@@ -74,8 +74,8 @@ int block_of(const SpaceVertices& s, int triangle) {
 SpaceCharts::SpaceCharts(const SpaceVertices& s) {
   const std::vector<int8_t> turn = orientations(s);
   const bool folded = std::ranges::any_of(turn, [&](int8_t t) { return t != turn[0]; });
-  const bool in_blocks = winds(s, 1, s.u_count, s.v_count + 1) ||
-                         winds(s, s.u_count + 1, s.u_count + 1, s.v_count);
+  const bool in_blocks =
+      winds(s, 1, s.u_count, s.v_count + 1) || winds(s, s.u_count + 1, s.u_count + 1, s.v_count);
   if (!folded && !in_blocks) return;
 
   count_ = 0;

@@ -123,8 +123,8 @@ bool SpaceIndex::covers(uint32_t triangle, float x, float y, SurfacePoint& point
   const Corners c = corners_at(vertices_, triangle, x, y);
   const float bc = cross(c.B, c.C), ca = cross(c.C, c.A), ab = cross(c.A, c.B);
   const float area = bc + ca + ab;
-  const bool inside = area > 0.0f ? std::min({bc, ca, ab}) >= 0.0f
-                                  : area < 0.0f && std::max({bc, ca, ab}) <= 0.0f;
+  const bool inside =
+      area > 0.0f ? std::min({bc, ca, ab}) >= 0.0f : area < 0.0f && std::max({bc, ca, ab}) <= 0.0f;
   if (inside) point = on_surface(triangle, c, bc / area, ca / area, ab / area);
   return inside;
 }

@@ -34,7 +34,7 @@ class SpaceIndex {
   float x0_ = 0, y0_ = 0, x1_ = 0, y1_ = 0;  ///< bounds of the vertices
   float columns_per_x_ = 0, rows_per_y_ = 0;
   int columns_ = 1, rows_ = 1;
-  std::vector<uint32_t> first_;           ///< [bin] into micropolygons_; one past the end last
+  std::vector<uint32_t> first_;          ///< [bin] into micropolygons_; one past the end last
   std::vector<uint32_t> micropolygons_;  ///< ascending within a bin
 };
 

@@ -11,9 +11,8 @@ ShadingRequest key_of(const ShadeInput& input, size_t fragment) {
   const size_t pixel = pixel_of(input, fragment);
   const uint64_t x = uint64_t(rect.x0 + int(pixel) % rect.width()),
                  y = uint64_t(rect.y0 + int(pixel) / rect.width());
-  const uint64_t micropolygon =
-      cell_name(grid_name(input.grids[fragments.grid[fragment]]->id), 2,
-                fragments.triangle[fragment] / 2);
+  const uint64_t micropolygon = cell_name(grid_name(input.grids[fragments.grid[fragment]]->id), 2,
+                                          fragments.triangle[fragment] / 2);
   return {cell_name(micropolygon, x, y), cell_name(micropolygon, x / 2, y / 2)};
 }
 
