@@ -61,12 +61,6 @@ class PowerSpectrum {
     for (const Complex& v : values) power_.push_back(std::norm(v));
   }
 
-  /// Multiplies by the power of a factor that is a product over the axes.
-  void multiply(const std::vector<double>& x_power, const std::vector<double>& y_power) {
-    for (size_t j = 0; j < count_; ++j)
-      for (size_t i = 0; i < count_; ++i) power_[j * count_ + i] *= x_power[i] * y_power[j];
-  }
-
   /// Share of the energy for which within(f_x, f_y), in [0, 1], says so.
   double share(const std::function<double(double, double)>& within) const {
     double total = 0.0, inside = 0.0;
