@@ -49,8 +49,8 @@ double mean_over_parallelogram(const glm::vec3& x, double exponent, const Normal
   const float x_across = glm::dot(x, unit_or_zero(perpendicular));
   const double rest =  // of x, in directions in which the normals do not vary
       std::max(0.0, double(glm::dot(x, x) - x_along * x_along - x_across * x_across));
-  const double sheared = std::abs(shear) * std::sqrt(exponent);  // in standard deviations
-  const int slabs = int(std::clamp(std::ceil(3.0 * sheared), 1.0, double(most_slabs)));
+  const double wanted = std::ceil(3.0 * std::abs(shear) * std::sqrt(exponent));  // in deviations
+  const int slabs = wanted < most_slabs ? std::max(1, int(wanted)) : most_slabs;
   const Gaussian lobe{exponent, 1.0};
   const Gaussian sheared_lobe = lobe.widened(std::pow(shear / slabs, 2) / 12.0);
   double sum = 0.0;
@@ -139,8 +139,7 @@ float mean_specular_lobe(const glm::vec3& N, const glm::vec3& H, float exponent,
   // -2 ln cos = ln(1 + tan^2), which loses nothing where the angle is small.
   const float squared = glm::dot(tangent, tangent);
   const float x_squared = std::log1p(std::min(squared / (n_dot_h * n_dot_h), 1e30f));
-  const float widened = exponent / (1.0f + exponent * spread.scatter);
-  const float dimmed = widened / exponent;
+  const float dimmed = 1.0f / (1.0f + exponent * spread.scatter), widened = exponent * dimmed;
   const float widest = glm::dot(spread.along, spread.along);
   if (widest * widened < narrow_box * narrow_box) {
     return dimmed * mean_over_narrow_spread(tangent, x_squared, widened, spread);
