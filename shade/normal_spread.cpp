@@ -18,7 +18,7 @@ constexpr int most_slabs = 4;
 struct Gaussian {
   double exponent = 1.0, amplitude = 1.0;
   double at(double x) const { return amplitude * std::exp(-0.5 * exponent * x * x); }
-  /// Convolved along one axis with a distribution of mean 1 and that variance.
+  /// Convolved along one axis with a distribution of that variance.
   Gaussian widened(double variance) const {
     const double growth = 1.0 + exponent * variance;
     return {exponent / growth, amplitude / std::sqrt(growth)};
