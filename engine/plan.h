@@ -27,7 +27,7 @@ struct FramePlan {
   int samples_per_pixel = 16;
   int bucket_size = 32;
   int grid_size = 32;
-  std::string hider = "auto", shading = "reyes";
+  std::string hider = "auto", shading = "aas";
   std::string filter = "gaussian";
   float filter_x_width = 2, filter_y_width = 2;
   std::vector<std::string> channel_groups;  ///< AOVs to compute
