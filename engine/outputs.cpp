@@ -77,6 +77,7 @@ Image with_channels(const Image& image, const std::vector<std::string>& names) {
   Image picked(image.display_window, image.data_window);
   picked.pixel_aspect = image.pixel_aspect;
   picked.metadata = image.metadata;
+  picked.matrices = image.matrices;
   for (const std::string& name : names)
     if (const Image::Channel* channel = image.find_channel(name))
       picked.channels.push_back(*channel);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "shade/bindings.h"
 #include "shade/mathematics.h"
@@ -75,15 +76,32 @@ Vec3Array ShaderContext::facing_normals() const {
 
 Illumination ShaderContext::gather(const Vec3Array& N) const {
   Illumination light;
-  gather_light(services_.lights, points_, N, nullptr, light, services_.counters->light_evaluations);
+  gather_light(services_.lights, points_, N, nullptr, Shadows::cast, light, *services_.counters);
   return light;
 }
 
 Illumination ShaderContext::gather(const Vec3Array& N, const ScalarInput& roughness) const {
   Illumination light;
-  gather_light(services_.lights, points_, N, &roughness, light,
-               services_.counters->light_evaluations);
+  gather_light(services_.lights, points_, N, &roughness, Shadows::cast, light, *services_.counters);
   return light;
+}
+
+Illumination ShaderContext::gather_together(const Vec3Array& N,
+                                            const ScalarInput* roughness) const {
+  std::vector<const BoundLight*> lights;
+  std::ranges::copy_if(services_.lights, std::back_inserter(lights),
+                       [](const BoundLight* light) { return !light->term; });
+  Illumination light;
+  gather_light(lights, points_, N, roughness, Shadows::cast, light, *services_.counters);
+  return light;
+}
+
+Illumination ShaderContext::gather_alone(const BoundLight& light, const Vec3Array& N,
+                                         const ScalarInput* roughness) const {
+  const BoundLight* const lights[] = {&light};
+  Illumination alone;
+  gather_light(lights, points_, N, roughness, Shadows::left_out, alone, *services_.counters);
+  return alone;
 }
 
 Vec3Array ShaderContext::texture(const std::string& file) const {
