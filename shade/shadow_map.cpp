@@ -36,9 +36,10 @@ glm::dmat4 matrix(const Image& image, const char* name) {
 constexpr double rounding = 4e-6;
 
 /// Points of the unit cube [-1/2, 1/2)^4, evenly spread for any count: strata in the first
-/// coordinate, an additive recurrence in the others (M. Roberts, "The unreasonable effectiveness of
-/// quasirandom sequences", 2018: powers of the root of x^4 = x + 1). Each point of a surface shifts
-/// them its own way, so that few samples give noise rather than bands.
+/// coordinate, additive recurrences in the others (the golden ratio makes the first two a Fibonacci
+/// lattice; the last two are those of M. Roberts, "The unreasonable effectiveness of quasirandom
+/// sequences", 2018). Each point of a surface shifts them its own way, so that few samples give
+/// noise rather than bands.
 class SamplePlaces {
  public:
   SamplePlaces(int count, const glm::vec3& P) : count_(count) {
@@ -49,9 +50,8 @@ class SamplePlaces {
     for (double& shift : shift_) shift = double(seed = mix32(seed + 1)) * 0x1p-32;
   }
   std::array<double, 4> operator[](int k) const {
-    constexpr double step = 1.0 / 1.2207440846057596;
-    const std::array<double, 4> place{(k + 0.5) / count_, k * step, k * step * step,
-                                      k * step * step * step};
+    const std::array<double, 4> place{(k + 0.5) / count_, k * 0.6180339887498949,
+                                      k * 0.7548776662466927, k * 0.5698402909980532};
     std::array<double, 4> result;
     for (size_t d = 0; d < 4; ++d) {
       const double x = place[d] + shift_[d];
@@ -192,8 +192,11 @@ void ShadowMap::light_share(const ShadingPoints& points, const glm::dmat4& world
     double lit = 0.0;
     for (int k = 0; k < samples; ++k) {
       const auto [a, b, c, d] = places[k];
-      lit +=
-          lit_around(receiver.raster + a * x_axis + b * y_axis + blur * glm::dvec2(c, d), receiver);
+      // The first two coordinates are the better ones, and blur is mostly wider than a cell.
+      const glm::dvec2 offset = filter.blur > 0.0f
+                                    ? glm::dvec2(a, b) * blur + c * x_axis + d * y_axis
+                                    : a * x_axis + b * y_axis;
+      lit += lit_around(receiver.raster + offset, receiver);
     }
     share[size_t(i)] = float(lit / samples);
   }
