@@ -113,6 +113,7 @@ bool ShadowMap::receive(const glm::dvec3& P_world, double bias, Receiver& receiv
   const glm::dvec4 P(P_world, 1.0);
   const double w = glm::dot(w_row_, P), depth = glm::dot(depth_row_, P);
   if (!(w > 0.0)) return false;
+  receiver.w = w;
   receiver.raster = glm::dvec2(glm::dot(x_row_, P), glm::dot(y_row_, P)) / w;
   receiver.nearness = perspective_ ? 1.0 / depth : -depth;
   const double terms = glm::dot(glm::abs(depth_row_), glm::abs(P));
@@ -120,20 +121,18 @@ bool ShadowMap::receive(const glm::dvec3& P_world, double bias, Receiver& receiv
   return true;
 }
 
-ShadowMap::Change ShadowMap::change(const glm::dvec3& P_world, const Receiver& receiver,
-                                    const glm::dvec3& along) const {
+ShadowMap::Change ShadowMap::change(const Receiver& receiver, const glm::dvec3& along) const {
   const glm::dvec4 D(along, 0.0);
-  const double w = glm::dot(w_row_, glm::dvec4(P_world, 1.0)), w_change = glm::dot(w_row_, D);
-  const glm::dvec2 raster =
-      (glm::dvec2(glm::dot(x_row_, D), glm::dot(y_row_, D)) - receiver.raster * w_change) / w;
+  const double w = receiver.w;
+  const glm::dvec2 homogeneous(glm::dot(x_row_, D), glm::dot(y_row_, D));
+  const glm::dvec2 raster = (homogeneous - receiver.raster * glm::dot(w_row_, D)) / w;
   const double depth_change = glm::dot(depth_row_, D);
   return {raster, perspective_ ? -depth_change / (w * w) : -depth_change};
 }
 
 /// Sets how nearness changes over the plane that the two vectors span.
-void ShadowMap::tilt(const glm::dvec3& P_world, const glm::dvec3& across, const glm::dvec3& along,
-                     Receiver& receiver) const {
-  const Change a = change(P_world, receiver, across), b = change(P_world, receiver, along);
+void ShadowMap::tilt(const glm::dvec3& across, const glm::dvec3& along, Receiver& receiver) const {
+  const Change a = change(receiver, across), b = change(receiver, along);
   const double area = a.raster.x * b.raster.y - a.raster.y * b.raster.x;
   // Edge on, where the light does not shine on the plane, there is no slope to speak of.
   if (!(std::abs(area) > 1e-6 * glm::length(a.raster) * glm::length(b.raster))) return;
@@ -175,19 +174,24 @@ void ShadowMap::light_share(const ShadingPoints& points, const glm::dmat4& world
   const glm::dmat3 turn(world_from_camera);
   const glm::dvec2 blur = double(filter.blur) * glm::dvec2(frame_.width(), frame_.height());
   const bool spread_by_cell = points.dPdx.x && filter.width > 0.0f;
-  const int samples = spread_by_cell || filter.blur > 0.0f ? std::max(1, filter.samples) : 1;
+  const bool spread = spread_by_cell || filter.blur > 0.0f;
   for (int i = 0; i < points.count; ++i) {
     const glm::dvec3 P(world_from_camera * glm::dvec4(points.P[i], 1.0));
     Receiver receiver;
     share[size_t(i)] = 1.0f;
     if (!receive(P, double(filter.bias), receiver)) continue;
     const auto [across, along] = tangents(glm::dvec3(points.N[i]));
-    tilt(P, turn * across, turn * along, receiver);
+    tilt(turn * across, turn * along, receiver);
+    if (!spread) {
+      share[size_t(i)] = float(lit_around(receiver.raster, receiver));
+      continue;
+    }
     glm::dvec2 x_axis(0.0), y_axis(0.0);
     if (spread_by_cell) {
-      x_axis = double(filter.width) * change(P, receiver, turn * glm::dvec3(points.dPdx[i])).raster;
-      y_axis = double(filter.width) * change(P, receiver, turn * glm::dvec3(points.dPdy[i])).raster;
+      x_axis = double(filter.width) * change(receiver, turn * glm::dvec3(points.dPdx[i])).raster;
+      y_axis = double(filter.width) * change(receiver, turn * glm::dvec3(points.dPdy[i])).raster;
     }
+    const int samples = std::max(1, filter.samples);
     const SamplePlaces places(samples, points.P[i]);
     double lit = 0.0;
     for (int k = 0; k < samples; ++k) {

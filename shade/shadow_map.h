@@ -45,6 +45,7 @@ class ShadowMap {
   /// and -depth in an orthographic one, an affine function of raster position on any plane.
   struct Receiver {
     glm::dvec2 raster{0.0};
+    double w = 1.0;  ///< depth in a perspective map, 1 in an orthographic one
     double nearness = 0.0;
     glm::dvec2 nearness_slope{0.0};  ///< per pixel
     double allowance = 0.0;          ///< depth by which a blocker must be nearer
@@ -58,9 +59,8 @@ class ShadowMap {
   void read_matrices(const Image& depth);
   /// False when the point is not in front of the map's camera.
   bool receive(const glm::dvec3& P_world, double bias, Receiver& receiver) const;
-  Change change(const glm::dvec3& P_world, const Receiver& receiver, const glm::dvec3& along) const;
-  void tilt(const glm::dvec3& P_world, const glm::dvec3& across, const glm::dvec3& along,
-            Receiver& receiver) const;
+  Change change(const Receiver& receiver, const glm::dvec3& along) const;
+  void tilt(const glm::dvec3& across, const glm::dvec3& along, Receiver& receiver) const;
   bool blocked(int x, int y, const Receiver& receiver) const;
   double lit_around(const glm::dvec2& raster, const Receiver& receiver) const;
 
