@@ -31,7 +31,15 @@ LookUps each_fragment(const Term& term) {
   return result;
 }
 
-/// Fragments are ordered by sample, and with that by pixel.
+/// Squared distance of the fragment's sample from the middle of its pixel.
+float off_centre(const SampleBlock& samples, size_t sample) {
+  const float x = samples.x[sample], y = samples.y[sample];
+  const float dx = x - std::floor(x) - 0.5f, dy = y - std::floor(y) - 0.5f;
+  return dx * dx + dy * dy;
+}
+
+/// Fragments are ordered by sample, and with that by pixel. Of those of a grid in a pixel the one
+/// nearest the middle looks up for all, the first of equals.
 LookUps each_grid_of_pixel(const ShadeInput& input, const Term& term) {
   LookUps result;
   const FragmentList& fragments = *input.fragments;
@@ -47,7 +55,12 @@ LookUps each_grid_of_pixel(const ShadeInput& input, const Term& term) {
     const auto known =
         std::find_if(result.at.begin() + long(first_of_pixel), result.at.end(), same_grid);
     result.of_fragment.emplace_back(f, size_t(known - result.at.begin()));
-    if (known == result.at.end()) result.at.push_back(f);
+    if (known == result.at.end()) {
+      result.at.push_back(f);
+    } else if (off_centre(*input.samples, fragments.sample[f]) <
+               off_centre(*input.samples, fragments.sample[*known])) {
+      *known = f;
+    }
   }
   return result;
 }

@@ -11,9 +11,9 @@ namespace tessera {
 
 /// Adds to shaded.Ci each of shaded.light_terms times the share of its light that arrives. At rate
 /// `sample` shadows are looked up for every fragment at its own surface point; at rate `pixel` once
-/// for all fragments of a grid in a pixel, at the first of them that the light reaches, over the
-/// pixel's footprint. Points are those at shutter open, where the rest was shaded. Fragments whose
-/// term is zero cost nothing.
+/// for all fragments of a grid in a pixel that the light reaches, at the one whose sample is
+/// nearest the pixel's middle, over the pixel's footprint. Points are those at shutter open, where
+/// the rest was shaded. Fragments whose term is zero cost nothing.
 void apply_light_terms(const ShadeInput& input, const ShaderBindings& bindings,
                        ShadedFragments& shaded, ShadeCounters& counters);
 
