@@ -69,6 +69,23 @@ LookUps each_grid_of_pixel(const ShadeInput& input, const Term& term) {
 /// footprint stays bounded.
 constexpr float least_cosine = 0.05f;
 
+/// A fragment's point at shutter open, lifted from its flat triangle to the curved surface that the
+/// normals of its corners tell of: with coarse micropolygons a map made from fine ones would shadow
+/// the triangles. Halfway to the mean of its projections onto the corners' tangent planes, which is
+/// exact for a parabola (compare T. Boubekeur, M. Alexa, "Phong tessellation", SIGGRAPH Asia 2008).
+glm::vec3 lifted_point(const FragmentGeometry& seen) {
+  const Grid& grid = *seen.grid;
+  const glm::vec3 P = seen.P_camera(0.0f);
+  glm::vec3 lift(0.0f);
+  for (size_t k = 0; k < 3; ++k) {
+    const int corner = seen.corner[k];
+    const glm::vec3 Q(grid.P(0, 0)[corner], grid.P(0, 1)[corner], grid.P(0, 2)[corner]);
+    const glm::vec3 N(grid.N(0)[corner], grid.N(1)[corner], grid.N(2)[corner]);
+    lift += seen.weight[k] * glm::dot(Q - P, N) * N;
+  }
+  return P + 0.5f * lift;
+}
+
 /// The surface points of fragments at shutter open.
 class FragmentPoints {
  public:
@@ -79,7 +96,7 @@ class FragmentPoints {
     for (int i = 0; i < P_.count(); ++i) {
       const FragmentGeometry seen(input, fragments[size_t(i)]);
       const Grid& grid = *seen.grid;
-      P_.set(i, seen.P_camera(0.0f));
+      P_.set(i, lifted_point(seen));
       N_.set(i, unit_or_zero({seen.interpolate(grid.N(0)), seen.interpolate(grid.N(1)),
                               seen.interpolate(grid.N(2))}));
     }

@@ -231,6 +231,48 @@ TEST_CASE("under motion the shadow sticks to where the surface was at shutter op
   }
 }
 
+TEST_CASE("coarse micropolygons of a ball are not shadowed by the map's finer ball") {
+  const TemporaryFolder folder;
+  const glm::dvec3 centre(0.0, 0.0, 4.0);
+  const MapCamera camera{{0, 0, 0}, true, 0.5, 1024};
+  write_exr(folder.file("ball.z"), depth_image(camera, [&](const auto& o, const auto& d) {
+              return hit_sphere(o, d, centre, 1.0);
+            }));
+  TestScene test, unshadowed;
+  test.scene.file = folder.file("scene.rib");
+  test.add_light(call("pointlight", {text("shadowname", "ball.z"), text("shadowrate", "sample")}));
+  unshadowed.add_light(call("pointlight"));
+  const Surface& surface = test.add_surface("matte");
+  // A cap of the ball around its point nearest the eye, 0.2 from vertex to vertex: triangles lie up
+  // to 0.2^2 / 4 = 0.01 inside, where a texel is 0.003 wide.
+  const auto normal = [](float u, float v) {
+    const float x = u - 0.5f, y = v - 0.5f;
+    return glm::vec3(x, y, -std::sqrt(1.0f - x * x - y * y));
+  };
+  const auto grid =
+      make_grid(surface, 5, 5, [&](float u, float v) { return glm::vec3(centre) + normal(u, v); });
+  const size_t stride = grid->stride();
+  for (size_t k = 0; k < size_t(grid->vertex_count()); ++k) {
+    const glm::vec3 N = normal(grid->uv[k], grid->uv[stride + k]);
+    for (int axis = 0; axis < 3; ++axis) grid->N_camera[size_t(axis) * stride + k] = N[axis];
+  }
+  TestBucket bucket(500);
+  bucket.grids = {grid};
+  for (uint32_t k = 0; k < 500; ++k) {
+    bucket.add(0, k % 50, 0.3f, 0.35f, 3.0f);
+    bucket.finish_sample();
+  }
+  const Shaded shaded = shade(test.bind(), bucket);
+  CHECK(shaded.counters.shadow_lookups == 500);
+  auto same_grid = make_grid(unshadowed.add_surface("matte"), 5, 5,
+                             [&](float u, float v) { return glm::vec3(centre) + normal(u, v); });
+  same_grid->N_camera = grid->N_camera;
+  bucket.grids = {same_grid};
+  const Shaded bare = shade(unshadowed.bind(), bucket);
+  CHECK(bare.fragments.Ci[0][0] > 0.01f);
+  CHECK(shaded.fragments.Ci[0] == bare.fragments.Ci[0]);
+}
+
 TEST_CASE("an unknown rate is said with the choices, and a rate without a map is nothing") {
   HalfShadow half("frame");
   CHECK(half.test.bind()->light_term_count() == 0);
