@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -51,20 +52,44 @@ class Batch::FrameQueue : public SceneSink {
     return !batch_.cancel_;
   }
 
-  /// Renders what is still waiting.
+  void make_shadow(const std::string& picture, const std::string& shadow,
+                   const SourceLocation& where) override {
+    shadows_.push_back({picture, shadow, where});
+    if (!waiting_) flush();
+  }
+
+  /// Renders what is still waiting, then makes the shadow maps that were asked for after it.
   void flush() {
     if (waiting_ && !batch_.cancel_) batch_.run_frame(file_, *waiting_, several_, diagnostics_);
     waiting_.reset();
+    for (const ShadowJob& job : std::exchange(shadows_, {})) make(job);
   }
 
   int frames_read() const { return frames_read_; }
   int frames_selected() const { return frames_selected_; }
 
  private:
+  struct ShadowJob {
+    std::string picture, shadow;
+    SourceLocation where;
+  };
+
+  void make(const ShadowJob& job) {
+    if (batch_.cancel_) return;
+    try {
+      tessera::make_shadow(job.picture, job.shadow);
+    } catch (const Error& error) {
+      diagnostics_.warn_once(
+          "MakeShadow " + job.shadow, job.where,
+          fmt::format("MakeShadow: {}; {} is not made", error.what(), job.shadow));
+    }
+  }
+
   Batch& batch_;
   const SceneFile& file_;
   Diagnostics& diagnostics_;
   std::unique_ptr<const Scene> waiting_;
+  std::vector<ShadowJob> shadows_;
   int frames_read_ = 0, frames_selected_ = 0;
   bool several_ = false;
 };

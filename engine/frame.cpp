@@ -11,6 +11,7 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include "cameras/camera_matrices.h"
 #include "engine/bucket_renderer.h"
 #include "engine/frame_statistics.h"
 #include "engine/overrides.h"
@@ -152,6 +153,18 @@ void add_metadata(FrameResult& frame, const Scene& scene) {
   metadata["capDate"] = fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
 }
 
+/// What a depth file needs to become a shadow map, under OpenEXR's standard names.
+void add_matrices(FrameResult& frame, const Camera& camera) {
+  const CameraMatrices maps = camera_matrices(camera);
+  // The columns of a matrix for column vectors are the rows of one for row vectors.
+  const auto store = [&](const char* name, const glm::dmat4& matrix) {
+    std::array<float, 16>& rows = frame.image.matrices[name];
+    for (int i = 0; i < 16; ++i) rows[size_t(i)] = float(matrix[i / 4][i % 4]);
+  };
+  store("worldToCamera", maps.camera_from_world);
+  store("worldToNDC", maps.ndc_from_world);
+}
+
 }  // namespace
 
 FrameResult render_frame(const Scene& original, const Settings& settings, Diagnostics& diagnostics,
@@ -212,6 +225,7 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   }
   result.statistics = statistics.finish(plan, scene, settings, threads, diagnostics);
   add_metadata(result, scene);
+  add_matrices(result, camera);
   return result;
 }
 

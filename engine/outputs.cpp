@@ -11,6 +11,7 @@
 #include "images/image_module.h"
 #include "images/preview.h"
 #include "shade/shade.h"
+#include "shade/shadow_map.h"
 
 namespace tessera {
 namespace {
@@ -77,6 +78,7 @@ Image with_channels(const Image& image, const std::vector<std::string>& names) {
   Image picked(image.display_window, image.data_window);
   picked.pixel_aspect = image.pixel_aspect;
   picked.metadata = image.metadata;
+  picked.matrices = image.matrices;
   for (const std::string& name : names)
     if (const Image::Channel* channel = image.find_channel(name))
       picked.channels.push_back(*channel);
@@ -153,6 +155,16 @@ std::vector<std::string> write_displays(const FrameResult& frame, const Scene& s
     write_frame(frame, written.front());
   }
   return written;
+}
+
+void make_shadow(const std::string& picture, const std::string& shadow) {
+  const Image depth = read_exr(picture);
+  try {
+    (void)ShadowMap(depth);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{} is no depth file: {}", picture, error.what()));
+  }
+  write_exr(shadow, depth);
 }
 
 void write_preview(const FrameResult& frame, const std::string& path) {

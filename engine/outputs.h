@@ -22,6 +22,10 @@ std::vector<std::string> display_outputs(const Scene& scene);
 std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene,
                                         Diagnostics& diagnostics);
 
+/// Writes the depth file `picture` again as shadow map `shadow`, through a temporary name. Throws
+/// Error when it cannot be read or lacks what a shadow map needs (shade/shadow_map.h).
+void make_shadow(const std::string& picture, const std::string& shadow);
+
 /// An 8-bit picture to look at, from the rgb channels; sRGB unless the scene's own Exposure encodes it.
 void write_preview(const FrameResult& frame, const std::string& path);
 

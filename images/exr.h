@@ -7,9 +7,9 @@
 
 namespace tessera {
 
-/// Writes every channel of `image`, with its windows and metadata (as string attributes), through a
-/// temporary file: `path` is either complete or untouched. Values beyond the range of a half
-/// channel are written as +-65504; NaN stays NaN. Throws Error when the image is empty, two
+/// Writes every channel of `image`, with its windows, metadata (as string attributes) and matrices,
+/// through a temporary file: `path` is either complete or untouched. Values beyond the range of a
+/// half channel are written as +-65504; NaN stays NaN. Throws Error when the image is empty, two
 /// channels share a name, or writing fails, a full disc included.
 void write_exr(const std::string& path, const Image& image);
 

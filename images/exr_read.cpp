@@ -1,7 +1,10 @@
+#include <algorithm>
+
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfInputFile.h>
+#include <ImfMatrixAttribute.h>
 #include <ImfStringAttribute.h>
 
 #include "base/error.h"
@@ -23,6 +26,16 @@ void add_channels(const Imf::Header& header, Image& image) {
   }
 }
 
+void add_attributes(const Imf::Header& header, Image& image) {
+  for (auto i = header.begin(); i != header.end(); ++i) {
+    const Imf::Attribute& attribute = i.attribute();
+    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute))
+      image.metadata[i.name()] = text->value();
+    if (const auto* matrix = dynamic_cast<const Imf::M44fAttribute*>(&attribute))
+      std::copy_n(&matrix->value()[0][0], 16, image.matrices[i.name()].begin());
+  }
+}
+
 Image read(const std::string& path) {
   Imf::InputFile file(path.c_str());
   const Imf::Header& header = file.header();
@@ -39,9 +52,7 @@ Image read(const std::string& path) {
     throw Error(fmt::format("its header claims {:.0f} values; expected at most 2^31", values));
 
   add_channels(header, image);
-  for (auto i = header.begin(); i != header.end(); ++i)
-    if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&i.attribute()))
-      image.metadata[i.name()] = text->value();
+  add_attributes(header, image);
 
   Imf::FrameBuffer buffer;
   for (auto& channel : image.channels)

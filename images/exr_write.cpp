@@ -7,6 +7,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfMatrixAttribute.h>
 #include <ImfOutputFile.h>
 #include <ImfStringAttribute.h>
 #include <half.h>
@@ -76,6 +77,11 @@ Imf::Header make_header(const Image& image) {
   header.zipCompressionLevel() =
       1;  // half the time of the default level, files of much the same size
   for (const auto& [name, value] : image.metadata) header.insert(name, Imf::StringAttribute(value));
+  for (const auto& [name, rows] : image.matrices) {
+    Imath::M44f matrix;
+    std::copy(rows.begin(), rows.end(), &matrix[0][0]);
+    header.insert(name, Imf::M44fAttribute(matrix));
+  }
   for (const auto& channel : image.channels)
     header.channels().insert(
         channel.name, Imf::Channel(channel.type == PixelType::half ? Imf::HALF : Imf::FLOAT));

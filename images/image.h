@@ -1,6 +1,7 @@
 #pragma once
 /// An image in memory: named planar float channels over a rectangle of pixels.
 
+#include <array>
 #include <map>
 #include <string>
 #include <string_view>
@@ -26,6 +27,9 @@ struct Image {
   double pixel_aspect = 1.0;
   std::vector<Channel> channels;
   std::map<std::string, std::string> metadata;
+  /// 4 x 4 matrices as OpenEXR keeps them: row after row, for row vectors (P' = P M), so that the
+  /// last row is the translation.
+  std::map<std::string, std::array<float, 16>> matrices;
 
   Image() = default;
   /// A picture all of whose pixels are held, with its top left at (0, 0).

@@ -35,6 +35,7 @@ class Apply {
   void operator()(const AddDisplay& call) const;
   void operator()(const Hider& call) const;
   void operator()(const User& call) const;
+  void operator()(const MakeShadow&) const {}
 
  private:
   void expect(bool condition, const std::string& message) const {

@@ -172,6 +172,9 @@ void SceneBuilder::option(const OptionCall& call, const SourceLocation& where) {
                            "options cannot change inside a world: left out");
     return;
   }
+  if (const auto* make = std::get_if<option_call::MakeShadow>(&call)) {
+    return sink_.make_shadow(make->picture, make->shadow, where);
+  }
   if (takes_value("an option", where)) options_.apply(call, where, diagnostics_);
 }
 

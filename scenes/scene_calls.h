@@ -72,6 +72,11 @@ struct User {
   std::string category;
   std::vector<Parameter> parameters;
 };
+/// Not part of the state: a job for once all frames before it are rendered.
+struct MakeShadow {
+  std::string picture;  ///< a depth file
+  std::string shadow;   ///< the shadow map to make of it
+};
 }  // namespace option_call
 
 using OptionCall =
@@ -79,7 +84,7 @@ using OptionCall =
                  option_call::CropWindow, option_call::Projection, option_call::Clipping,
                  option_call::DepthOfField, option_call::Shutter, option_call::PixelSamples,
                  option_call::PixelFilter, option_call::Exposure, option_call::AddDisplay,
-                 option_call::Hider, option_call::User>;
+                 option_call::Hider, option_call::User, option_call::MakeShadow>;
 
 /// Attributes: hold for the shapes that follow, to the end of the attribute block.
 namespace attribute_call {

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <stdexcept>
+
+#include "shade/light_shadows.h"
 
 namespace tessera {
 namespace {
@@ -19,6 +22,13 @@ const ShaderDefinition* look_up(ShaderKind kind, const ShaderCall& call, const c
   return found;
 }
 
+/// Shadow maps mostly lie near the scene file, from wherever it is rendered.
+std::vector<std::string> shadow_search_path(const Scene& scene) {
+  std::vector<std::string> folders = scene.options.texture_path;
+  folders.push_back(std::filesystem::path(scene.file).parent_path().string());
+  return folders;
+}
+
 }  // namespace
 
 std::string_view shader_stem(std::string_view name) {
@@ -31,7 +41,9 @@ std::string_view shader_stem(std::string_view name) {
 ShaderBindings::ShaderBindings(const ShadeSetup& setup)
     : setup_(setup),
       camera_from_world_(setup.camera->camera_from_world(0.0f)),
-      textures_(std::make_unique<FrameTextures>(setup.texture_sampler, *setup.diagnostics)) {
+      textures_(std::make_unique<FrameTextures>(setup.texture_sampler, *setup.diagnostics)),
+      shadows_(shadow_search_path(*setup.scene), glm::inverse(camera_from_world_),
+               *setup.diagnostics) {
   camera_length_of_world_ =
       float(std::cbrt(std::abs(glm::determinant(glm::dmat3(camera_from_world_)))));
   bind_lights();
@@ -115,9 +127,27 @@ void ShaderBindings::bind_lights() {
     if (!definition) continue;
     const std::string label = fmt::format("light shader \"{}\"", definition->name);
     lights_[i] =
-        BoundLight{definition, BoundParameters(definition->parameters, light.shader,
-                                               spaces_of(light.shader), label, diagnostics())};
+        BoundLight{.definition = definition,
+                   .parameters = BoundParameters(definition->parameters, light.shader,
+                                                 spaces_of(light.shader), label, diagnostics())};
+    bind_shadow(light.shader, *lights_[i]);
   }
+}
+
+void ShaderBindings::bind_shadow(const ShaderCall& call, BoundLight& light) {
+  if (!light.definition->transmission) return;
+  try {
+    light.rate = term_rate(light.parameters.string("shadowrate"));
+  } catch (const Error& error) {
+    diagnostics().warn_once(fmt::format("shadowrate of {}", call.name), call.where,
+                            fmt::format("light \"{}\": {}; cell is used", call.name, error.what()));
+  }
+  const std::string& file = light.parameters.string("shadowname");
+  if (file.empty()) return;
+  light.shadow = &shadows_.source(file, call.where);
+  if (light.rate == TermRate::cell) return;
+  light.term = term_lights_.size();
+  term_lights_.push_back(&light);
 }
 
 std::shared_ptr<const ShaderBindings> bind_shaders(const ShadeSetup& setup) {

@@ -9,6 +9,7 @@
 
 #include "shade/shade.h"
 #include "shade/shader.h"
+#include "shade/shadow_source.h"
 #include "shade/textures.h"
 
 namespace tessera {
@@ -44,7 +45,9 @@ class ShaderBindings {
   Diagnostics& diagnostics() const { return *setup_.diagnostics; }
   FrameTextures& textures() const { return *textures_; }
   /// Lights of the scene whose shadows are looked up at a rate of their own.
-  size_t light_term_count() const { return 0; }
+  size_t light_term_count() const { return term_lights_.size(); }
+  /// Those lights, in the order of SurfaceColors::light_terms.
+  std::span<const BoundLight* const> term_lights() const { return term_lights_; }
   /// Camera units in one world unit.
   float camera_length_of_world() const { return camera_length_of_world_; }
 
@@ -54,6 +57,7 @@ class ShaderBindings {
   BoundShader bind_surface(const Attributes& attributes) const;
   std::optional<BoundShader> bind_displacement(const Attributes& attributes) const;
   void bind_lights();
+  void bind_shadow(const ShaderCall& call, BoundLight& light);
   ShaderSpaces spaces_of(const ShaderCall& call) const;
 
   ShadeSetup setup_;
@@ -61,7 +65,9 @@ class ShaderBindings {
   float camera_length_of_world_ = 1.0f;
   bool any_displacement_ = false;
   std::unique_ptr<FrameTextures> textures_;
+  FrameShadows shadows_;
   std::vector<std::optional<BoundLight>> lights_;  ///< as Scene::lights; empty: does not shine
+  std::vector<const BoundLight*> term_lights_;
   std::vector<std::unique_ptr<SurfaceBinding>> bindings_;  ///< in the order surfaces need them
   std::unordered_map<const Attributes*, const SurfaceBinding*> of_attributes_;  ///< look-up only
 };

@@ -17,13 +17,7 @@ const LightDefinition* guess_light(const ShaderCall& call) {
 
 const LightDefinition* choose_light(const ShaderCall& call, Diagnostics& diagnostics) {
   const LightDefinition* known = find_light(shader_stem(call.name));
-  if (known) {
-    if (!known->limitation.empty()) {
-      diagnostics.warn_once("limitation of light " + known->name, call.where,
-                            fmt::format("light \"{}\": {}", call.name, known->limitation));
-    }
-    return known;
-  }
+  if (known) return known;
   const LightDefinition* guess = guess_light(call);
   const std::string instead =
       guess ? fmt::format("judging by its parameters it is taken as a {}", guess->name)

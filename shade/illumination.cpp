@@ -30,20 +30,33 @@ void add_specular(const LightSamples& light, const ShadingPoints& points, const 
   }
 }
 
+/// Multiplies what arrives by the share that nothing blocks.
+void cast_shadows(const BoundLight& light, const ShadingPoints& points, LightSamples& samples,
+                  std::vector<float>& share, ShadeCounters& counters) {
+  share.resize(size_t(points.count));
+  light.definition->transmission(light, points, share);
+  counters.shadow_lookups += uint64_t(points.count);
+  for (int i = 0; i < points.count; ++i) samples.Cl.set(i, share[size_t(i)] * samples.Cl[i]);
+}
+
 }  // namespace
 
 void gather_light(std::span<const BoundLight* const> lights, const ShadingPoints& points,
-                  const Vec3Input& N, const ScalarInput* roughness, Illumination& out,
-                  uint64_t& light_evaluations) {
+                  const Vec3Input& N, const ScalarInput* roughness, Shadows shadows,
+                  Illumination& out, ShadeCounters& counters) {
   out.ambient.reset(points.count);
   out.diffuse.reset(points.count);
   if (roughness) out.specular.reset(points.count);
   LightSamples samples;
+  std::vector<float> share;
   for (const BoundLight* light : lights) {
     samples.L.reset(points.count);
     samples.Cl.reset(points.count);
     light->definition->illuminate(light->parameters, points, samples);
-    light_evaluations += uint64_t(points.count);
+    counters.light_evaluations += uint64_t(points.count);
+    if (light->shadow && shadows == Shadows::cast) {
+      cast_shadows(*light, points, samples, share, counters);
+    }
     if (light->definition->ambient) {
       for (int i = 0; i < points.count; ++i) out.ambient.add(i, samples.Cl[i]);
       continue;

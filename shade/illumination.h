@@ -2,10 +2,10 @@
 /// The light-gathering functions of the RenderMan Interface (version 3.2, section 16.6): ambient(),
 /// diffuse() and specular(), for a batch of points and in one pass over the lights.
 
-#include <cstdint>
 #include <span>
 
 #include "shade/light.h"
+#include "shade/shade.h"
 
 namespace tessera {
 
@@ -18,10 +18,13 @@ struct Illumination {
                        ///< H = normalize(L - I)
 };
 
+enum class Shadows { cast, left_out };
+
 /// Gathers light on surfaces with unit normals `N` that face the eye. `roughness` null: no
-/// specular. Adds to `light_evaluations` one for each point and light.
+/// specular. Adds to `counters` one light evaluation for each point and light, and one shadow
+/// look-up where a shadow was cast.
 void gather_light(std::span<const BoundLight* const> lights, const ShadingPoints& points,
-                  const Vec3Input& N, const ScalarInput* roughness, Illumination& out,
-                  uint64_t& light_evaluations);
+                  const Vec3Input& N, const ScalarInput* roughness, Shadows shadows,
+                  Illumination& out, ShadeCounters& counters);
 
 }  // namespace tessera

@@ -61,13 +61,14 @@ struct ShadingRequest {
 
 struct ShadeCounters {
   uint64_t grids_shaded = 0, points_shaded = 0, light_evaluations = 0, texture_lookups = 0;
-  uint64_t nonfinite_dropped = 0;
+  uint64_t shadow_lookups = 0, nonfinite_dropped = 0;
   static constexpr auto fields() {
     using C = ShadeCounters;
     return std::array{CounterField<C>{"grids_shaded", &C::grids_shaded},
                       CounterField<C>{"points_shaded", &C::points_shaded},
                       CounterField<C>{"light_evaluations", &C::light_evaluations},
                       CounterField<C>{"texture_lookups", &C::texture_lookups},
+                      CounterField<C>{"shadow_lookups", &C::shadow_lookups},
                       CounterField<C>{"nonfinite_dropped", &C::nonfinite_dropped}};
   }
 };

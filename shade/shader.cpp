@@ -1,6 +1,7 @@
 #include "shade/shader.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "shade/bindings.h"
 
@@ -72,15 +73,32 @@ Vec3Array ShaderContext::facing_normals() const {
 
 Illumination ShaderContext::gather(const Vec3Array& N) const {
   Illumination light;
-  gather_light(services_.lights, points_, N, nullptr, light, services_.counters->light_evaluations);
+  gather_light(services_.lights, points_, N, nullptr, Shadows::cast, light, *services_.counters);
   return light;
 }
 
 Illumination ShaderContext::gather(const Vec3Array& N, const ScalarInput& roughness) const {
   Illumination light;
-  gather_light(services_.lights, points_, N, &roughness, light,
-               services_.counters->light_evaluations);
+  gather_light(services_.lights, points_, N, &roughness, Shadows::cast, light, *services_.counters);
   return light;
+}
+
+Illumination ShaderContext::gather_together(const Vec3Array& N,
+                                            const ScalarInput* roughness) const {
+  std::vector<const BoundLight*> lights;
+  std::ranges::copy_if(services_.lights, std::back_inserter(lights),
+                       [](const BoundLight* light) { return !light->term; });
+  Illumination light;
+  gather_light(lights, points_, N, roughness, Shadows::cast, light, *services_.counters);
+  return light;
+}
+
+Illumination ShaderContext::gather_alone(const BoundLight& light, const Vec3Array& N,
+                                         const ScalarInput* roughness) const {
+  const BoundLight* const lights[] = {&light};
+  Illumination alone;
+  gather_light(lights, points_, N, roughness, Shadows::left_out, alone, *services_.counters);
+  return alone;
 }
 
 glm::vec3 ShaderContext::shader_vector(const glm::vec3& vector_camera) const {

@@ -82,9 +82,27 @@ class ShaderContext {
 
   /// Unit normals turned towards the eye (faceforward of the RenderMan Interface).
   Vec3Array facing_normals() const;
-  /// Light arriving on surfaces with normals `N`; without `roughness` no specular sums.
+  /// Light arriving on surfaces with normals `N`, shadows included; without `roughness` no specular
+  /// sums.
   Illumination gather(const Vec3Array& N) const;
   Illumination gather(const Vec3Array& N, const ScalarInput& roughness) const;
+
+  /// Calls color(light, i) for every point i: with the lights that have no term of their own taken
+  /// together, which is added to out.Ci, and with each of the others, unshadowed, for its
+  /// out.light_terms. So `color` returns what `light` adds to Ci and nothing else: it is linear in
+  /// the light, and zero without any. A null roughness gives no specular sums.
+  template <class Color>
+  void shade_lights(const Vec3Array& N, const ScalarInput* roughness, SurfaceColors& out,
+                    const Color& color) const {
+    const Illumination together = gather_together(N, roughness);
+    for (int i = 0; i < count(); ++i) out.Ci.add(i, color(together, i));
+    for (const BoundLight* light : services_.lights) {
+      if (!light->term) continue;
+      const Illumination alone = gather_alone(*light, N, roughness);
+      Vec3Array& term = out.light_terms.at(*light->term);
+      for (int i = 0; i < count(); ++i) term.set(i, color(alone, i));
+    }
+  }
 
   /// The texture `file` at the points' own st, filtered over their footprints; magenta when the
   /// file is missing.
@@ -103,6 +121,10 @@ class ShaderContext {
   glm::vec3 shader_vector(const glm::vec3& vector_camera) const;
 
  private:
+  Illumination gather_together(const Vec3Array& N, const ScalarInput* roughness) const;
+  Illumination gather_alone(const BoundLight& light, const Vec3Array& N,
+                            const ScalarInput* roughness) const;
+
   /// One declared parameter after overriding.
   struct Value {
     const float* values;

@@ -14,13 +14,14 @@ void shade_plastic(const ShaderContext& context, const Vec3Input& base, SurfaceC
   const ScalarInput Ka = context.scalar("Ka"), Kd = context.scalar("Kd");
   const ScalarInput Ks = context.scalar("Ks");
   const Vec3Input specular_color = context.vec3("specularcolor");
-  const Illumination light = context.gather(context.facing_normals(), context.scalar("roughness"));
-  for (int i = 0; i < points.count; ++i) {
+  const ScalarInput roughness = context.scalar("roughness");
+  const auto lit = [&](const Illumination& light, int i) {
     const glm::vec3 body = base[i] * (Ka[i] * light.ambient[i] + Kd[i] * light.diffuse[i]);
     const glm::vec3 highlight = specular_color[i] * (Ks[i] * light.specular[i]);
-    out.Oi.set(i, points.Os[i]);
-    out.Ci.set(i, points.Os[i] * (body + highlight));
-  }
+    return points.Os[i] * (body + highlight);
+  };
+  for (int i = 0; i < points.count; ++i) out.Oi.set(i, points.Os[i]);
+  context.shade_lights(context.facing_normals(), &roughness, out, lit);
 }
 
 }  // namespace tessera

@@ -59,6 +59,9 @@ struct OptionText {
   std::string operator()(const option_call::User& c) const {
     return "Option " + quoted(c.category) + parameters(c.parameters);
   }
+  std::string operator()(const option_call::MakeShadow& c) const {
+    return "MakeShadow " + quoted(c.picture) + " " + quoted(c.shadow);
+  }
 };
 
 struct AttributeText {

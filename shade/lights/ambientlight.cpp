@@ -17,8 +17,7 @@ LightDefinition light_ambientlight() {
           .parameters = {scalar_parameter("intensity", 1.0f, "multiplies the colour"),
                          color_parameter("lightcolor", glm::vec3(1.0f), "colour")},
           .ambient = true,
-          .illuminate = illuminate,
-          .limitation = ""};
+          .illuminate = illuminate};
 }
 
 }  // namespace tessera

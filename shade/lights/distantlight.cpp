@@ -1,4 +1,4 @@
-#include "shade/light.h"
+#include "shade/light_shadows.h"
 
 namespace tessera {
 namespace {
@@ -21,13 +21,14 @@ void illuminate(const BoundParameters& parameters, const ShadingPoints& points, 
 LightDefinition light_distantlight() {
   return {.name = "distantlight",
           .help = "parallel light, as of the sun",
-          .parameters = {scalar_parameter("intensity", 1.0f, "multiplies the colour"),
-                         color_parameter("lightcolor", glm::vec3(1.0f), "colour"),
-                         point_parameter("from", {0, 0, 0}, "light travels from here ..."),
-                         point_parameter("to", {0, 0, 1}, "... towards here")},
+          .parameters = with_shadow_parameters(
+              {scalar_parameter("intensity", 1.0f, "multiplies the colour"),
+               color_parameter("lightcolor", glm::vec3(1.0f), "colour"),
+               point_parameter("from", {0, 0, 0}, "light travels from here ..."),
+               point_parameter("to", {0, 0, 1}, "... towards here")}),
           .ambient = false,
           .illuminate = illuminate,
-          .limitation = ""};
+          .transmission = shadow_map_transmission};
 }
 
 }  // namespace tessera

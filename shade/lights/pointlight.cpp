@@ -1,4 +1,4 @@
-#include "shade/light.h"
+#include "shade/light_shadows.h"
 
 namespace tessera {
 namespace {
@@ -21,12 +21,13 @@ void illuminate(const BoundParameters& parameters, const ShadingPoints& points, 
 LightDefinition light_pointlight() {
   return {.name = "pointlight",
           .help = "light from a point in all directions, falling off with distance squared",
-          .parameters = {scalar_parameter("intensity", 1.0f, "multiplies the colour"),
-                         color_parameter("lightcolor", glm::vec3(1.0f), "colour"),
-                         point_parameter("from", {0, 0, 0}, "place of the light")},
+          .parameters =
+              with_shadow_parameters({scalar_parameter("intensity", 1.0f, "multiplies the colour"),
+                                      color_parameter("lightcolor", glm::vec3(1.0f), "colour"),
+                                      point_parameter("from", {0, 0, 0}, "place of the light")}),
           .ambient = false,
           .illuminate = illuminate,
-          .limitation = ""};
+          .transmission = shadow_map_transmission};
 }
 
 }  // namespace tessera

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "shade/light.h"
+#include "shade/light_shadows.h"
 #include "shade/mathematics.h"
 
 namespace tessera {
@@ -36,17 +36,17 @@ void illuminate(const BoundParameters& parameters, const ShadingPoints& points, 
 LightDefinition light_spotlight() {
   return {.name = "spotlight",
           .help = "a cone of light from a point, falling off with distance squared",
-          .parameters =
+          .parameters = with_shadow_parameters(
               {scalar_parameter("intensity", 1.0f, "multiplies the colour"),
                color_parameter("lightcolor", glm::vec3(1.0f), "colour"),
                point_parameter("from", {0, 0, 0}, "place of the light"),
                point_parameter("to", {0, 0, 1}, "a point on the axis of the cone"),
                scalar_parameter("coneangle", radians(30.0f), "from axis to edge, radians"),
                scalar_parameter("conedeltaangle", radians(5.0f), "width of the soft edge, radians"),
-               scalar_parameter("beamdistribution", 2.0f, "power of the cosine off the axis")},
+               scalar_parameter("beamdistribution", 2.0f, "power of the cosine off the axis")}),
           .ambient = false,
           .illuminate = illuminate,
-          .limitation = ""};
+          .transmission = shadow_map_transmission};
 }
 
 }  // namespace tessera

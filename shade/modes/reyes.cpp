@@ -17,6 +17,8 @@ struct VertexColors : GridAttachment {
   /// One vertex after the other, so that a fragment touches three short runs of memory.
   std::vector<std::array<float, 3>> Ci;
   std::vector<std::array<float, 3>> Oi;  ///< empty when every vertex is opaque
+  /// [term] As SurfaceColors::light_terms; empty where the light reaches no vertex.
+  std::vector<std::vector<std::array<float, 3>>> light_terms;
 };
 
 /// The vertices of a triangle and the weights of a fragment inside it (dice/grid.h).
@@ -49,12 +51,28 @@ void interpolate(const std::vector<std::array<float, 3>>& values, const Place& p
   }
 }
 
+/// `otherwise` where there are no values.
+void interpolate_unless_empty(const std::vector<std::array<float, 3>>& values, float otherwise,
+                              const Place& place, size_t f,
+                              std::array<std::vector<float>, 3>& out) {
+  if (!values.empty()) return interpolate(values, place, f, out);
+  for (size_t c = 0; c < 3; ++c) out[c][f] = otherwise;
+}
+
 std::vector<std::array<float, 3>> interleaved(const Vec3Array& values) {
   std::vector<std::array<float, 3>> result(size_t(values.count()));
   for (int i = 0; i < values.count(); ++i) {
     const glm::vec3 v = values[i];
     result[size_t(i)] = {v.x, v.y, v.z};
   }
+  return result;
+}
+
+/// Nothing when every component is `usual`.
+std::vector<std::array<float, 3>> interleaved_unless_all(float usual, const Vec3Array& values) {
+  std::vector<std::array<float, 3>> result = interleaved(values);
+  const std::array<float, 3> all{usual, usual, usual};
+  if (std::ranges::all_of(result, [&](const auto& v) { return v == all; })) return {};
   return result;
 }
 
@@ -67,9 +85,11 @@ class ReyesShading : public Shading {
 
   void shade(const ShadeInput& input, ShadedFragments& out, ShadeCounters& counters) override {
     const FragmentList& fragments = *input.fragments;
+    out.light_terms.resize(bindings_->light_term_count());
     for (size_t c = 0; c < 3; ++c) {
       out.Ci[c].resize(fragments.size());
       out.Oi[c].resize(fragments.size());
+      for (auto& term : out.light_terms) term[c].resize(fragments.size());
     }
     out.cell.resize(input.wants_cells ? fragments.size() : 0);
     std::vector<const VertexColors*> colors(input.grids.size(), nullptr);
@@ -80,10 +100,9 @@ class ReyesShading : public Shading {
       const Place place = place_of(grid, fragments, f);
       if (input.wants_cells) out.cell[f] = nearest_vertex_name(grid, place);
       interpolate(shaded->Ci, place, f, out.Ci);
-      if (shaded->Oi.empty()) {
-        for (size_t c = 0; c < 3; ++c) out.Oi[c][f] = 1.0f;
-      } else {
-        interpolate(shaded->Oi, place, f, out.Oi);
+      interpolate_unless_empty(shaded->Oi, 1.0f, place, f, out.Oi);
+      for (size_t k = 0; k < out.light_terms.size(); ++k) {
+        interpolate_unless_empty(shaded->light_terms[k], 0.0f, place, f, out.light_terms[k]);
       }
     }
   }
@@ -126,10 +145,9 @@ class ReyesShading : public Shading {
     shade_surface(*bindings_, bindings_->of(grid.attributes()), batch.points(), FailedPoint::black,
                   shaded, counters);
     colors.Ci = interleaved(shaded.Ci);
-    colors.Oi = interleaved(shaded.Oi);
-    const std::array<float, 3> opaque{1.0f, 1.0f, 1.0f};
-    if (std::ranges::all_of(colors.Oi, [&](const auto& o) { return o == opaque; })) {
-      std::vector<std::array<float, 3>>().swap(colors.Oi);
+    colors.Oi = interleaved_unless_all(1.0f, shaded.Oi);
+    for (const Vec3Array& term : shaded.light_terms) {
+      colors.light_terms.push_back(interleaved_unless_all(0.0f, term));
     }
     ++counters.grids_shaded;
   }

@@ -18,13 +18,16 @@ void surface(const ShaderContext& context, SurfaceColors& out) {
   const ScalarInput Ka = context.scalar("Ka"), Kd = context.scalar("Kd");
   const ScalarInput frequency = context.scalar("frequency");
   const Vec3Input black = context.vec3("blackcolor");
-  const Illumination light = context.gather(context.facing_normals());
+  Vec3Array base(points.count);
   for (int i = 0; i < points.count; ++i) {
     const float white = white_share(points, i, frequency[i]);
-    const glm::vec3 base = glm::mix(black[i], points.Cs[i], white);
+    base.set(i, glm::mix(black[i], points.Cs[i], white));
     out.Oi.set(i, points.Os[i]);
-    out.Ci.set(i, points.Os[i] * base * (Ka[i] * light.ambient[i] + Kd[i] * light.diffuse[i]));
   }
+  const auto lit = [&](const Illumination& light, int i) {
+    return points.Os[i] * base[i] * (Ka[i] * light.ambient[i] + Kd[i] * light.diffuse[i]);
+  };
+  context.shade_lights(context.facing_normals(), nullptr, out, lit);
 }
 
 }  // namespace

@@ -6,12 +6,11 @@ namespace {
 void surface(const ShaderContext& context, SurfaceColors& out) {
   const ShadingPoints& points = context.points();
   const ScalarInput Ka = context.scalar("Ka"), Kd = context.scalar("Kd");
-  const Illumination light = context.gather(context.facing_normals());
-  for (int i = 0; i < points.count; ++i) {
-    out.Oi.set(i, points.Os[i]);
-    out.Ci.set(i,
-               points.Os[i] * points.Cs[i] * (Ka[i] * light.ambient[i] + Kd[i] * light.diffuse[i]));
-  }
+  const auto lit = [&](const Illumination& light, int i) {
+    return points.Os[i] * points.Cs[i] * (Ka[i] * light.ambient[i] + Kd[i] * light.diffuse[i]);
+  };
+  for (int i = 0; i < points.count; ++i) out.Oi.set(i, points.Os[i]);
+  context.shade_lights(context.facing_normals(), nullptr, out, lit);
 }
 
 }  // namespace

@@ -6,12 +6,12 @@ namespace {
 void surface(const ShaderContext& context, SurfaceColors& out) {
   const ShadingPoints& points = context.points();
   const ScalarInput Ka = context.scalar("Ka"), Ks = context.scalar("Ks");
-  const Illumination light = context.gather(context.facing_normals(), context.scalar("roughness"));
-  for (int i = 0; i < points.count; ++i) {
-    out.Oi.set(i, points.Os[i]);
-    out.Ci.set(
-        i, points.Os[i] * points.Cs[i] * (Ka[i] * light.ambient[i] + Ks[i] * light.specular[i]));
-  }
+  const ScalarInput roughness = context.scalar("roughness");
+  const auto lit = [&](const Illumination& light, int i) {
+    return points.Os[i] * points.Cs[i] * (Ka[i] * light.ambient[i] + Ks[i] * light.specular[i]);
+  };
+  for (int i = 0; i < points.count; ++i) out.Oi.set(i, points.Os[i]);
+  context.shade_lights(context.facing_normals(), &roughness, out, lit);
 }
 
 }  // namespace

@@ -8,17 +8,19 @@ void surface(const ShaderContext& context, SurfaceColors& out) {
   const ScalarInput Ka = context.scalar("Ka"), Ks = context.scalar("Ks");
   const ScalarInput Kr = context.scalar("Kr"), roughness = context.scalar("roughness");
   const Vec3Array N = context.facing_normals();
-  const Illumination light = context.gather(N, roughness);
   const std::string& map = context.string("texturename");
   // Without a map the surroundings are black, as in the Interface.
   const Vec3Array seen = map.empty()
                              ? Vec3Array(points.count)
                              : context.environment(map, context.mirror_directions(N), roughness);
   for (int i = 0; i < points.count; ++i) {
-    const glm::vec3 sum = Ka[i] * light.ambient[i] + Ks[i] * light.specular[i] + Kr[i] * seen[i];
     out.Oi.set(i, points.Os[i]);
-    out.Ci.set(i, points.Os[i] * points.Cs[i] * sum);
+    out.Ci.set(i, points.Os[i] * points.Cs[i] * (Kr[i] * seen[i]));
   }
+  const auto lit = [&](const Illumination& light, int i) {
+    return points.Os[i] * points.Cs[i] * (Ka[i] * light.ambient[i] + Ks[i] * light.specular[i]);
+  };
+  context.shade_lights(N, &roughness, out, lit);
 }
 
 }  // namespace

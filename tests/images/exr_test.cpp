@@ -44,6 +44,9 @@ TEST_CASE("float channels survive a round trip bit for bit") {
   image.channels[0].values[6] = -0.0f;
   image.pixel_aspect = 1.5;
   image.metadata = {{"tessera:scene", "a scene"}, {"tessera:options", "spp=16 \"x\"\n"}};
+  std::array<float, 16> matrix;
+  for (size_t i = 0; i < 16; ++i) matrix[i] = 0.1f + float(i);
+  image.matrices["worldToCamera"] = matrix;
   write_exr(folder.file("a.exr"), image);
   CHECK(folder.entries() == 1);
 
@@ -52,6 +55,7 @@ TEST_CASE("float channels survive a round trip bit for bit") {
   CHECK(read.display_window == image.display_window);
   CHECK(read.pixel_aspect == 1.5);
   for (const auto& [key, value] : image.metadata) CHECK(read.metadata.at(key) == value);
+  CHECK(read.matrices == image.matrices);
   REQUIRE(read.channels.size() == image.channels.size());
   for (const auto& channel : image.channels) {
     INFO(channel.name);

@@ -62,6 +62,7 @@ const std::string scene = R"(
   Shutter 0 .1  PixelSamples 3 3  PixelFilter "sinc" 4 4  Exposure 1.1 2.2
   Display "a\"\\\n.exr" "file" "rgb"  Display "+b" "file" "z" "int[2] origin" [1 2]
   Hider "hidden" "jitter" 1  Option "searchpath" "texture" "a:b"
+  MakeShadow "a.z" "a.shd" "float swidth" 2
   Rotate 33.3 1 2 3  CoordinateSystem "c"
   MotionBegin [0 .1] Translate 0 0 .1 Translate 0 0 .7 MotionEnd
   ObjectBegin 1 Color .1 .2 .3 Torus 2 .3 0 360 360 ObjectEnd
@@ -95,6 +96,7 @@ const std::string scene = R"(
 TEST_CASE("a scene survives being written") {
   const std::string once = rewritten(scene);
   CHECK(rewritten(once) == once);
+  CHECK_THAT(once, Catch::Contains("MakeShadow \"a.z\" \"a.shd\"\n"));
   const auto a = read_text(scene), b = read_text(once);
   CHECK(a.warnings.empty());
   CHECK(b.warnings.empty());

@@ -137,6 +137,7 @@ inline SurfaceColors run_surface(const ShaderBindings& bindings, const Grid& gri
   const ShaderContext context(binding.surface, batch.points(),
                               {binding.lights, &bindings.textures(), &counters});
   SurfaceColors out{Vec3Array(grid.vertex_count()), Vec3Array(grid.vertex_count())};
+  out.light_terms.assign(bindings.light_term_count(), Vec3Array(grid.vertex_count()));
   binding.surface.definition->surface(context, out);
   return out;
 }

@@ -59,6 +59,14 @@ void option(RibSession& session, RibArguments& arguments) {
   give(session, arguments, std::move(call));
 }
 
+void make_shadow(RibSession& session, RibArguments& arguments) {
+  option_call::MakeShadow call;
+  call.picture = arguments.string();
+  call.shadow = arguments.string();
+  parameters(session, arguments);  // filters of the map: look-ups filter themselves
+  give(session, arguments, std::move(call));
+}
+
 const RibRequestRow rows[] = {
     {"PixelSamples", pixel_samples},
     {"PixelFilter", pixel_filter},
@@ -66,6 +74,7 @@ const RibRequestRow rows[] = {
     {"Display", display},
     {"Hider", hider},
     {"Option", option},
+    {"MakeShadow", make_shadow},
 };
 
 }  // namespace

@@ -70,7 +70,6 @@ const RibRequestRow rows[] = {
     {"MakeTexture", skip},
     {"MakeLatLongEnvironment", skip},
     {"MakeCubeFaceEnvironment", skip},
-    {"MakeShadow", skip},
     {"MakeBrickMap", skip},
     {"MakeBump", skip},
     {"SolidBegin", solid_begin},

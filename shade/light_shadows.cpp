@@ -1,0 +1,43 @@
+#include "shade/light_shadows.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shade/shadow_source.h"
+
+namespace tessera {
+
+std::vector<ParameterDeclaration> with_shadow_parameters(std::vector<ParameterDeclaration> own) {
+  const ParameterDeclaration shadow[] = {
+      string_parameter("shadowname", "", "depth map from the light; empty: no shadows"),
+      scalar_parameter("samples", 16.0f, "places of the map compared for a point"),
+      scalar_parameter("width", 1.0f, "of the filter, in shading cells"),
+      scalar_parameter("blur", 0.0f, "further width of the filter, share of the map"),
+      scalar_parameter("bias", 0.0f,
+                       "how much nearer than the surface a blocker must be, "
+                       "besides a texel"),
+      string_parameter("shadowrate", "cell", "shadows once a cell, pixel or sample")};
+  own.insert(own.end(), std::begin(shadow), std::end(shadow));
+  return own;
+}
+
+void shadow_map_transmission(const BoundLight& light, const ShadingPoints& points,
+                             std::span<float> share) {
+  const auto finite = [&](const char* name, float otherwise) {
+    const float value = light.parameters.scalar(name);
+    return std::isfinite(value) ? value : otherwise;
+  };
+  const ShadowFilter filter{int(std::clamp(finite("samples", 16.0f), 1.0f, 4096.0f)),
+                            std::max(0.0f, finite("width", 1.0f)),
+                            std::max(0.0f, finite("blur", 0.0f)), finite("bias", 0.0f)};
+  light.shadow->light_share(points, filter, share);
+}
+
+TermRate term_rate(std::string_view name) {
+  if (name == "cell") return TermRate::cell;
+  if (name == "pixel") return TermRate::pixel;
+  if (name == "sample") return TermRate::sample;
+  throw Error(fmt::format("unknown shadowrate \"{}\"; expected one of: cell, pixel, sample", name));
+}
+
+}  // namespace tessera
