@@ -35,6 +35,7 @@ class CellPoints {
 
   ShadingPoints points_;
   Vec3Array P_, N_, I_, dPdx_, dPdy_, dNdx_, dNdy_;
+  AlignedVector<float> normal_variance_;
   AlignedVector<float> parameters_;  ///< [u, v, s, t, dsdx, dtdx, dsdy, dtdy][point]
   std::vector<AlignedVector<float>> primvars_;
 };

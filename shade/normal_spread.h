@@ -48,11 +48,13 @@ float mean_specular_lobe(const glm::vec3& N, const glm::vec3& H, float exponent,
 /// The mean of max(0, x + y + z) over y in [-p / 2, p / 2] and z in [-q / 2, q / 2]; p or q > 0.
 float mean_positive_part(float x, float p, float q);
 
-/// The mean over the cell of max(0, n . L), the shortening of the mean normal left out. Exact, and
+/// The mean over the cell of max(0, n . L), with the shortening of the mean normal by its
+/// scatter but not by its linear change. Exact, and
 /// max(0, N . L) bit for bit, where the whole cell faces the light.
 inline float mean_clamped_cosine(const glm::vec3& N, const glm::vec3& L,
                                  const NormalSpread& spread) {
-  const float cosine = glm::dot(N, L);
+  // The mean of scattered unit normals is shorter than they are.
+  const float cosine = glm::dot(N, L) * (1.0f - std::min(spread.scatter, 1.0f));
   float p = std::abs(glm::dot(spread.along, L));
   const float q = std::abs(glm::dot(spread.across, L));
   if (spread.scatter > 0.0f) {  // widens p to a box with the variances of both
