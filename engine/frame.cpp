@@ -182,7 +182,9 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   for (const std::string& name : plan.channel_groups) groups.push_back(&find_aov(name));
   const auto film = make_film(plan, buckets, camera, groups, scene.options);
   const auto hider = make_hider(plan.hider);
-  const auto shading = make_shading(plan.shading, shading_frame(plan, bindings));
+  const ShadingFrame shaded = shading_frame(plan, bindings);
+  const auto shading = control.make_shading ? control.make_shading(plan.shading, shaded)
+                                            : make_shading(plan.shading, shaded);
   const int threads = thread_count(settings);
   std::optional<Heatmap> heatmap;
   if (settings.heatmap) heatmap.emplace(find_heatmap(*settings.heatmap), camera.crop());

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <string_view>
 
 #include "base/diagnostics.h"
 #include "engine/plan.h"
@@ -12,6 +13,7 @@
 #include "engine/statistics.h"
 #include "images/image.h"
 #include "scenes/scene.h"
+#include "shade/shade.h"
 
 namespace tessera {
 
@@ -20,6 +22,10 @@ namespace tessera {
 struct FrameControl {
   std::function<void(int buckets_done, int buckets_total)> progress;
   const std::atomic<bool>* cancel = nullptr;  ///< when it turns true no further bucket is started
+  /// Makes what shades the frame, in place of make_shading(). For measuring. With one thread its
+  /// shade() sees the buckets in raster order.
+  std::function<std::unique_ptr<Shading>(std::string_view spec, const ShadingFrame& frame)>
+      make_shading;
 };
 
 struct FrameResult {

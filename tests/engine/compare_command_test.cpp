@@ -15,6 +15,12 @@ void write_flat(const std::string& path, float error) {
   write_exr(path, image);
 }
 
+void write_grey(const std::string& path, float value) {
+  Image image(64, 48);
+  for (const char* name : {"R", "G", "B"}) image.add_channel(name, PixelType::float32, value);
+  write_exr(path, image);
+}
+
 }  // namespace
 
 TEST_CASE("compare measures and exits past the limit") {
@@ -30,6 +36,22 @@ TEST_CASE("compare measures and exits past the limit") {
   CHECK(run_tessera({"compare", "a.exr", "b.exr", "--fail-over", "0.0721"}, folder).exit_code == 1);
   CHECK(run_tessera({"compare", "a.exr", "a.exr", "--fail-over", "0"}, folder).exit_code == 0);
   CHECK_THAT(run_tessera({"compare", "a.exr", "a.exr"}, folder).out, Contains("PSNR     inf"));
+}
+
+TEST_CASE("compare tells the share of pixels that look different") {
+  const TemporaryFolder folder;
+  write_grey(folder / "grey.exr", 0.5f);
+  write_grey(folder / "almost.exr", 0.5005f);
+  write_grey(folder / "dark.exr", 0.1f);
+  CHECK_THAT(run_tessera({"compare", "grey.exr", "almost.exr"}, folder).out,
+             Contains("visible  0 % of pixels"));
+  CHECK_THAT(run_tessera({"compare", "dark.exr", "grey.exr"}, folder).out,
+             Contains("visible  100 % of pixels"));
+  CHECK_THAT(run_tessera({"compare", "--help"}, folder).out, Contains("perceptual"));
+
+  // Without colours there is nothing to see.
+  write_flat(folder / "red.exr", 0);
+  CHECK_THAT(run_tessera({"compare", "red.exr", "red.exr"}, folder).out, !Contains("visible"));
 }
 
 TEST_CASE("a value that cannot be compared is past every limit") {
