@@ -41,6 +41,9 @@ DiceSettings dice_settings(const FramePlan& plan, const BucketLayout& buckets,
                            std::shared_ptr<const ShaderBindings> bindings) {
   DiceSettings dice;
   dice.max_grid_size = plan.grid_size;
+  dice.dicing_rate = settings.dicing_rate;
+  dice.motion_factor = plan.motion_factor;
+  dice.focus_factor = plan.focus_factor;
   dice.crop = buckets.sampled;
   dice.bucket_size = buckets.size;
   dice.memory_budget_bytes = settings.memory_bytes;
@@ -159,7 +162,10 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   for (const std::string& name : plan.channel_groups) groups.push_back(&find_aov(name));
   const auto film = make_film(plan, buckets, camera, groups, scene.options);
   const auto hider = make_hider(plan.hider);
-  const auto shading = make_shading(plan.shading, {bindings, plan.motion, plan.lens});
+  const auto shading = make_shading(plan.shading, {.bindings = bindings,
+                                                   .motion = plan.motion,
+                                                   .lens = plan.lens,
+                                                   .dicing_ratio = plan.dicing_ratio});
   const int threads = thread_count(settings);
   std::optional<Heatmap> heatmap;
   if (settings.heatmap) heatmap.emplace(find_heatmap(*settings.heatmap), camera.crop());

@@ -27,6 +27,10 @@ struct FramePlan {
   int samples_per_pixel = 16;
   int bucket_size = 32;
   int grid_size = 32;
+  /// Area of a micropolygon over that of a shading cell.
+  float dicing_ratio = 1;
+  /// GeometricApproximation of surfaces that say nothing (docs/dicing.md, Blur).
+  float motion_factor = 0, focus_factor = 0;
   std::string hider = "auto", shading = "reyes";
   std::string filter = "gaussian";
   float filter_x_width = 2, filter_y_width = 2;
