@@ -12,6 +12,7 @@
 /// Neighbouring grids of one surface share the vertices of their common edge bit for bit; a
 /// micropolygon at such an edge may be degenerate (two vertices equal), see docs/dicing.md.
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <memory>
@@ -72,6 +73,13 @@ struct Grid {
   int vertex_count() const { return (u_count + 1) * (v_count + 1); }
   int micropolygon_count() const { return u_count * v_count; }
   int key_count() const { return int(key_times.size()); }
+  /// The vertices of triangle 2 * micropolygon + (0 or 1), in the order of the picture above.
+  std::array<int, 3> triangle_corners(uint32_t triangle) const {
+    const int m = int(triangle / 2), row = u_count + 1;
+    const int a = m / u_count * row + m % u_count;
+    const int b = a + 1, c = a + row, d = c + 1;
+    return triangle % 2 == 0 ? std::array{a, b, d} : std::array{a, d, c};
+  }
   size_t stride() const { return padded(size_t(vertex_count())); }
   const float* P(int key, int axis) const {
     return P_camera.data() + (size_t(key) * 3 + size_t(axis)) * stride();

@@ -7,11 +7,7 @@ namespace tessera {
 FragmentGeometry::FragmentGeometry(const ShadeInput& input, size_t fragment) {
   const FragmentList& fragments = *input.fragments;
   grid = input.grids[fragments.grid[fragment]].get();
-  const int triangle = int(fragments.triangle[fragment]);
-  const int micropolygon = triangle / 2, row = grid->u_count + 1;
-  const int a = micropolygon / grid->u_count * row + micropolygon % grid->u_count;
-  const int b = a + 1, c = a + row, d = c + 1;
-  corner = triangle % 2 == 0 ? std::array{a, b, d} : std::array{a, d, c};
+  corner = grid->triangle_corners(fragments.triangle[fragment]);
   const float b1 = fragments.b1[fragment], b2 = fragments.b2[fragment];
   weight = {1.0f - b1 - b2, b1, b2};
   const AlignedVector<float>& times = input.samples->t;

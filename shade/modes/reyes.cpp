@@ -2,8 +2,8 @@
 #include <array>
 #include <mutex>
 
-#include "base/hash.h"
 #include "shade/cell_name.h"
+#include "shade/grid_attachments.h"
 #include "shade/grid_points.h"
 #include "shade/surface_shading.h"
 
@@ -19,25 +19,19 @@ struct VertexColors : GridAttachment {
   std::vector<std::array<float, 3>> Oi;  ///< empty when every vertex is opaque
 };
 
-using Weights = std::array<float, 3>;
-using Corners = std::array<size_t, 3>;
-
 /// The vertices of a triangle and the weights of a fragment inside it (dice/grid.h).
 struct Place {
-  Corners corner;
-  Weights weight;
+  std::array<int, 3> corner;
+  std::array<float, 3> weight;
 };
 
 Place place_of(const Grid& grid, const FragmentList& fragments, size_t f) {
-  const uint32_t micropolygon = fragments.triangle[f] / 2;
-  const size_t row = size_t(grid.u_count) + 1;
-  const size_t a =
-      micropolygon / uint32_t(grid.u_count) * row + micropolygon % uint32_t(grid.u_count);
-  if (!grid.attributes().smooth_shading) return {{a, a, a}, {1.0f, 0.0f, 0.0f}};
-  const bool first = fragments.triangle[f] % 2 == 0;  // 0 = (a, b, d), 1 = (a, d, c)
-  const size_t b = a + 1, c = a + row, d = c + 1;
+  const std::array<int, 3> corner = grid.triangle_corners(fragments.triangle[f]);
+  if (!grid.attributes().smooth_shading) {
+    return {{corner[0], corner[0], corner[0]}, {1.0f, 0.0f, 0.0f}};
+  }
   const float b1 = fragments.b1[f], b2 = fragments.b2[f];
-  return {first ? Corners{a, b, d} : Corners{a, d, c}, {1.0f - b1 - b2, b1, b2}};
+  return {corner, {1.0f - b1 - b2, b1, b2}};
 }
 
 void interpolate(const std::vector<std::array<float, 3>>& values, const Place& place, size_t f,
@@ -45,7 +39,7 @@ void interpolate(const std::vector<std::array<float, 3>>& values, const Place& p
   const auto& [p, q, r] = place.corner;
   const auto& [wp, wq, wr] = place.weight;
   for (size_t c = 0; c < 3; ++c) {
-    out[c][f] = wp * values[p][c] + wq * values[q][c] + wr * values[r][c];
+    out[c][f] = wp * values[size_t(p)][c] + wq * values[size_t(q)][c] + wr * values[size_t(r)][c];
   }
 }
 
@@ -92,26 +86,18 @@ class ReyesShading : public Shading {
     const Place place = place_of(grid, *input.fragments, fragment);
     const uint64_t row = uint64_t(grid.u_count) + 1, name = grid_name(grid.id);
     for (size_t k = 0; k < (grid.attributes().smooth_shading ? 3 : 1); ++k) {
-      const uint64_t i = place.corner[k] % row, j = place.corner[k] / row;
+      const uint64_t i = uint64_t(place.corner[k]) % row, j = uint64_t(place.corner[k]) / row;
       out.push_back({cell_name(name, i, j), cell_name(name, i / 2, j / 2)});
     }
   }
 
  private:
   const VertexColors& vertex_colors(const Grid& grid, ShadeCounters& counters) {
-    VertexColors& colors = attachment_of(grid);
+    VertexColors& colors =
+        attachments_.of<VertexColors>(grid, [] { return std::make_unique<VertexColors>(); });
     // Not under the attachment's lock: other grids that share it need not wait for shaders.
     std::call_once(colors.shaded, [&] { shade_vertices(grid, colors, counters); });
     return colors;
-  }
-
-  VertexColors& attachment_of(const Grid& grid) {
-    const uint32_t hash =
-        hash_combine(hash_combine(grid.id.surface, grid.id.face),
-                     hash_combine(uint32_t(grid.id.path >> 32), uint32_t(grid.id.path)));
-    const std::scoped_lock lock(attachment_locks_[hash % attachment_locks_.size()]);
-    if (!grid.attachment) grid.attachment = std::make_unique<VertexColors>();
-    return static_cast<VertexColors&>(*grid.attachment);
   }
 
   void shade_vertices(const Grid& grid, VertexColors& colors, ShadeCounters& counters) const {
@@ -129,8 +115,7 @@ class ReyesShading : public Shading {
   }
 
   std::shared_ptr<const ShaderBindings> bindings_;
-  /// Each guards the attachments of the grids that hash to it.
-  std::array<std::mutex, 64> attachment_locks_;
+  GridAttachments attachments_;
 };
 
 }  // namespace

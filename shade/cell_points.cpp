@@ -1,0 +1,130 @@
+#include "shade/cell_points.h"
+
+#include <algorithm>
+
+#include "shade/mathematics.h"
+
+namespace tessera {
+namespace {
+
+/// Reads values of a grid's vertices at one cell.
+class VertexReader {
+ public:
+  explicit VertexReader(const CellPoint& cell)
+      : corner_(cell.grid->triangle_corners(cell.at.triangle)),
+        weight_(cell.at.weights()),
+        footprint_(cell.footprint) {
+    const Grid& grid = *cell.grid;
+    const int m = int(cell.at.triangle / 2), row = grid.u_count + 1;
+    const int i = m % grid.u_count, j = m / grid.u_count;
+    // As wide as the differences that the footprint was made from (shade/shading_space.cpp).
+    const int i0 = std::max(i - 1, 0), i1 = std::min(i + 2, grid.u_count);
+    const int j0 = std::max(j - 1, 0), j1 = std::min(j + 2, grid.v_count);
+    left_ = size_t(j * row + i0), right_ = size_t(j * row + i1);
+    below_ = size_t(j0 * row + i), above_ = size_t(j1 * row + i);
+    per_i_ = 1.0f / float(i1 - i0), per_j_ = 1.0f / float(j1 - j0);
+  }
+
+  float value(const float* f) const {
+    return weight_[0] * f[corner_[0]] + weight_[1] * f[corner_[1]] + weight_[2] * f[corner_[2]];
+  }
+  /// The change of `f` over the cell along its x and y axes.
+  glm::vec2 change(const float* f) const {
+    const float di = (f[right_] - f[left_]) * per_i_, dj = (f[above_] - f[below_]) * per_j_;
+    return {di * footprint_.ij_per_x.x + dj * footprint_.ij_per_x.y,
+            di * footprint_.ij_per_y.x + dj * footprint_.ij_per_y.y};
+  }
+
+ private:
+  std::array<int, 3> corner_;
+  std::array<float, 3> weight_;
+  CellFootprint footprint_;
+  size_t left_, right_, below_, above_;
+  float per_i_, per_j_;
+};
+
+}  // namespace
+
+CellPoints::CellPoints(std::span<const CellPoint> cells, const Camera& camera) {
+  const Grid& first = *cells.front().grid;
+  const Attributes& attributes = first.attributes();
+  points_.count = int(cells.size());
+  points_.Cs = Vec3Input::uniform(&attributes.color.x);
+  points_.Os = Vec3Input::uniform(&attributes.opacity.x);
+  points_.camera_from_object =
+      camera.camera_from_world(0.0f) * first.surface->world_from_object.at(0.0f);
+  fill_geometry(cells, camera);
+  fill_parameters(cells);
+  fill_primvars(cells);
+}
+
+void CellPoints::fill_geometry(std::span<const CellPoint> cells, const Camera& camera) {
+  for (Vec3Array* array : {&P_, &N_, &I_, &dPdx_, &dPdy_, &dNdx_, &dNdy_})
+    array->reset(points_.count);
+  const glm::vec3 forward(0.0f, 0.0f, 1.0f);
+  for (int k = 0; k < points_.count; ++k) {
+    const CellPoint& cell = cells[size_t(k)];
+    const Grid& grid = *cell.grid;
+    const VertexReader read(cell);
+    glm::vec3 P, N, dPdx, dPdy, dNdx, dNdy;
+    for (int axis = 0; axis < 3; ++axis) {
+      P[axis] = read.value(grid.P(0, axis)), N[axis] = read.value(grid.N(axis));
+      const glm::vec2 dP = read.change(grid.P(0, axis)), dN = read.change(grid.N(axis));
+      dPdx[axis] = dP.x, dPdy[axis] = dP.y, dNdx[axis] = dN.x, dNdy[axis] = dN.y;
+    }
+    const glm::vec2 x = cell.footprint.ij_per_x, y = cell.footprint.ij_per_y;
+    // The lattice may be seen from its other side; a footprint has no sign of its own.
+    if ((x.x * y.y - x.y * y.x) * grid.normal_sign < 0.0f) dPdy = -dPdy, dNdy = -dNdy;
+    const glm::vec3 from_eye = camera.perspective() ? unit_or_zero(P) : forward;
+    P_.set(k, P), N_.set(k, unit_or_zero(N));
+    I_.set(k, from_eye == glm::vec3(0.0f) ? forward : from_eye);
+    dPdx_.set(k, dPdx), dPdy_.set(k, dPdy), dNdx_.set(k, dNdx), dNdy_.set(k, dNdy);
+  }
+  points_.P = P_, points_.N = N_, points_.I = I_;
+  points_.dPdx = dPdx_, points_.dPdy = dPdy_, points_.dNdx = dNdx_, points_.dNdy = dNdy_;
+}
+
+void CellPoints::fill_parameters(std::span<const CellPoint> cells) {
+  const size_t stride = padded(cells.size());
+  parameters_.assign(8 * stride, 0.0f);
+  float* out = parameters_.data();
+  for (size_t k = 0; k < cells.size(); ++k) {
+    const Grid& grid = *cells[k].grid;
+    const VertexReader read(cells[k]);
+    const float *s = grid.st.data(), *t = s + grid.stride();
+    const glm::vec2 ds = read.change(s), dt = read.change(t);
+    const float values[] = {read.value(grid.uv.data()),
+                            read.value(grid.uv.data() + grid.stride()),
+                            read.value(s),
+                            read.value(t),
+                            ds.x,
+                            dt.x,
+                            ds.y,
+                            dt.y};
+    for (size_t p = 0; p < std::size(values); ++p) out[p * stride + k] = values[p];
+  }
+  const auto run = [&](size_t p) { return out + p * stride; };
+  points_.u = run(0), points_.v = run(1), points_.s = run(2), points_.t = run(3);
+  points_.st_footprint = {run(4), run(5), run(6), run(7)};
+}
+
+void CellPoints::fill_primvars(std::span<const CellPoint> cells) {
+  const size_t stride = padded(cells.size());
+  const std::vector<GridPrimvar>& first = cells.front().grid->primvars;
+  for (size_t p = 0; p < first.size(); ++p) {
+    AlignedVector<float>& values = primvars_.emplace_back(size_t(first[p].components) * stride);
+    for (size_t k = 0; k < cells.size(); ++k) {
+      const Grid& grid = *cells[k].grid;
+      const VertexReader read(cells[k]);
+      for (int c = 0; c < first[p].components; ++c)
+        values[size_t(c) * stride + k] = read.value(grid.primvars[p].component(c, grid.stride()));
+    }
+    points_.primvars.push_back({first[p].source, first[p].components, values.data(), stride});
+    if (first[p].components != 3) continue;
+    const Vec3Input input = Vec3Input::varying(values.data(), stride);
+    if (first[p].source->name == "Cs") points_.Cs = input;
+    if (first[p].source->name == "Os") points_.Os = input;
+  }
+}
+
+}  // namespace tessera

@@ -1,0 +1,34 @@
+#include <cmath>
+
+#include "shade/cell_name.h"
+#include "shade/fragment_shading.h"
+#include "shade/mode_arguments.h"
+
+namespace tessera {
+namespace {
+
+/// Every fragment is a cell, and would need a block of hardware's own.
+ShadingRequest key_of(const ShadeInput& input, size_t fragment) {
+  const FragmentList& fragments = *input.fragments;
+  const PixelRect& rect = input.samples->rect;
+  const uint64_t name = cell_name(cell_name(3, uint64_t(rect.x0), uint64_t(rect.y0)),
+                                  fragments.sample[fragment], fragment);
+  return {name, name};
+}
+
+/// The samples of a pixel share its area.
+float footprint_pixels(const SampleBlock& samples) {
+  return 1.0f / std::sqrt(float(samples.samples_per_pixel));
+}
+
+}  // namespace
+
+ShadingModeDefinition shading_mode_sample() {
+  return {"sample", "shade every sample: the reference for all others",
+          [](std::string_view arguments, const ShadingFrame& frame) -> std::unique_ptr<Shading> {
+            read_mode_arguments("sample", arguments, {});
+            return std::make_unique<FragmentShading>(frame, key_of, footprint_pixels);
+          }};
+}
+
+}  // namespace tessera
