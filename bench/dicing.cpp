@@ -4,6 +4,7 @@
 /// `noise_rmse`, what another seed changes. Without a scene, scenes/examples/film_frame.rib: motion
 /// and defocus.
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -98,6 +99,8 @@ class Sweeps {
     sweep("focus_factor", factors, true, [](Settings& s, float f) { s.focus_factor = f; });
     sweep("both_factors", factors, true,
           [](Settings& s, float f) { s.motion_factor = s.focus_factor = f; });
+    sweep("factors", std::array{"scene"}, false,
+          [](Settings& s, const char*) { s.motion_factor = s.focus_factor = std::nullopt; });
   }
 
  private:

@@ -33,7 +33,7 @@ struct DiceSettings {
   /// Area of a micropolygon in pixels^2, in place of the surfaces' own: Attribute "dice" "rate" or,
   /// without one, ShadingRate.
   std::optional<float> dicing_rate;
-  /// GeometricApproximation of surfaces that say nothing (DiceRate).
+  /// GeometricApproximation of surfaces that say nothing and are not displaced (DiceRate).
   float motion_factor = 0, focus_factor = 0;
   PixelRect crop;        ///< surfaces that cannot touch these pixels are never diced
   int bucket_size = 32;  ///< pixels; bucket (i, j) starts at crop.x0 + i * bucket_size, ...

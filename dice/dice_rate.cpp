@@ -33,17 +33,14 @@ void RowSize::add(const RowLength& row) {
 
 void RowSize::add_bend(const RasterProjection& projection, const glm::vec3& a, const glm::vec3& b,
                        const glm::vec3& c) {
+  const glm::vec3 chord = c - a, side = b - a;
+  const float chord_length = glm::length(chord);
+  // Across the chord: what is uneven along a straight line is no bend.
+  const float deviation =
+      chord_length > 0 ? glm::length(glm::cross(chord, side)) / chord_length : glm::length(side);
   const RasterClipMap& map = projection.map();
-  const auto raster = [&](const glm::vec3& p) {
-    const float w = map.w_from_z * p.z + map.w_constant;
-    return glm::vec2(map.x_scale * p.x / w, map.y_scale * p.y / w);
-  };
-  const glm::vec2 chord = raster(c) - raster(a), side = raster(b) - raster(a);
-  const float length_squared = glm::dot(chord, chord);
-  // What is uneven along a straight line is no bend.
-  const float off = length_squared > 0
-                        ? std::abs(chord.x * side.y - chord.y * side.x) / std::sqrt(length_squared)
-                        : glm::length(side);
+  const float w = map.w_from_z * b.z + map.w_constant;
+  const float off = deviation * std::max(std::abs(map.x_scale), std::abs(map.y_scale)) / w;
   if (off > bend) bend = off;  // false for what is not a number: then the blur is unknown, too
 }
 

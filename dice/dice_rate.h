@@ -29,7 +29,8 @@ struct RowSize {
 
   /// A row at one key, from the distances between its samples.
   void add(const RowLength& row);
-  /// Three samples in a row, as the lens centre sees them.
+  /// Three samples in a row. The deviation counts as if it were seen squarely: the outline is where
+  /// curves turn back on the raster, and show none.
   void add_bend(const RasterProjection& projection, const glm::vec3& a, const glm::vec3& b,
                 const glm::vec3& c);
 };

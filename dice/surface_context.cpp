@@ -66,10 +66,15 @@ DiceRate dice_rate(const Attributes& attributes, const MovingPoints& points, con
   // While the shutter is closed keys blur nothing.
   const bool blurs =
       points.key_count() > 1 && camera.settings().shutter_close > camera.settings().shutter_open;
-  if (blurs) rate.motion_factor = attributes.motion_factor.value_or(settings.motion_factor);
-  if (camera.lens_open()) {
-    rate.focus_factor = attributes.focus_factor.value_or(settings.focus_factor);
-  }
+  // What displacement does to an outline is not to be seen in the surface that is measured here:
+  // only on demand.
+  const bool by_default = !attributes.displacement || !settings.displacer;
+  const auto factor = [&](const std::optional<float>& given, float usual) {
+    return given.value_or(by_default ? usual : 0.0f);
+  };
+  if (blurs) rate.motion_factor = factor(attributes.motion_factor, settings.motion_factor);
+  if (camera.lens_open())
+    rate.focus_factor = factor(attributes.focus_factor, settings.focus_factor);
   return rate;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -94,16 +93,16 @@ void set_needs(FramePlan& plan, const Scene& scene, const CameraSettings& camera
   for (const Light& light : scene.lights) plan.area_lights = plan.area_lights || light.area;
 }
 
-/// Of the whole frame: the least over its surfaces, so that nobody takes micropolygons for larger
+/// Of the whole frame: the most over its surfaces, so that nobody takes micropolygons for smaller
 /// than they are.
 float dicing_ratio(const Scene& scene, const Settings& settings) {
-  float least = std::numeric_limits<float>::infinity();
+  float most = 0;
   for (const Surface& surface : scene.surfaces) {
     const Attributes& attributes = *surface.attributes;
     const float area = settings.dicing_rate.value_or(micropolygon_area(attributes));
-    least = std::min(least, area / attributes.shading_rate);
+    most = std::max(most, area / attributes.shading_rate);
   }
-  return std::isfinite(least) ? least : 1.0f;
+  return most > 0 && std::isfinite(most) ? most : 1.0f;
 }
 
 }  // namespace
