@@ -29,8 +29,8 @@ struct FramePlan {
   int grid_size = 32;
   /// Area of a micropolygon over that of a shading cell, where it is largest.
   float dicing_ratio = 1;
-  /// GeometricApproximation of surfaces that say nothing: the largest whose error stays below half
-  /// of the noise at 64 samples a pixel (docs/dicing.md, Blur).
+  /// GeometricApproximation of surfaces that say nothing: the largest powers of two whose error
+  /// stays below half of the noise at 64 samples a pixel (docs/dicing.md, Blur).
   float motion_factor = 4, focus_factor = 8;
   std::string hider = "auto", shading = "reyes";
   std::string filter = "gaussian";
