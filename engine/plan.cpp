@@ -127,8 +127,6 @@ FramePlan make_plan(const Scene& scene, const CameraSettings& camera, const Sett
   if (settings.hider) plan.hider = *settings.hider;
   plan.sample_tuples = make_hider(plan.hider)->sample_tuples(plan.samples_per_pixel);
   if (settings.shading) plan.shading = *settings.shading;
-  // It shades the vertices, and motion hides no detail across itself.
-  if (plan.shading == "reyes") plan.motion_factor = 2;
   plan.filter_x_width = options.filter_x_width;
   plan.filter_y_width = options.filter_y_width;
   set_filter(plan, settings.filter.value_or(options.filter));
