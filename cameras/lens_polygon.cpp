@@ -74,21 +74,14 @@ class PolygonLens final : public LensProfile {
   }
 
   double band_limit(double energy_share) const override {
-    check_energy_share(energy_share);
-    const std::vector<double> overlap = mean_overlap();
-    const double wanted = energy_share * overlap[0];
-    double low = 0.0, high = 1.0;
-    while (energy_within(high, overlap) < wanted) low = high, high *= 2.0;
-    for (int i = 0; i < 30; ++i) {
-      const double middle = 0.5 * (low + high);
-      (energy_within(middle, overlap) < wanted ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
+    return radius_holding(energy_share, mean_overlap(), reach);
   }
 
  private:
-  /// Autocorrelation averaged over directions, at distances [0, 2]. The spectrum itself has spikes
-  /// across every side, ever thinner with frequency; the autocorrelation is smooth.
+  static constexpr double reach = 2.0;  ///< no two points of the polygon are farther apart
+
+  /// Autocorrelation averaged over directions, at distances [0, reach]. The spectrum itself has
+  /// spikes across every side, ever thinner with frequency; the autocorrelation is smooth.
   std::vector<double> mean_overlap() const {
     constexpr int intervals = 512, directions = 24;
     const Corners polygon = regular_polygon(blades_, 0.0);
@@ -98,27 +91,10 @@ class PolygonLens final : public LensProfile {
       const double angle = pi / blades_ * (d + 0.5) / directions;
       const glm::dvec2 direction(std::cos(angle), std::sin(angle));
       for (int i = 0; i <= intervals; ++i)
-        overlap[size_t(i)] += overlap_area(polygon, direction * (2.0 * i / intervals)) / directions;
+        overlap[size_t(i)] +=
+            overlap_area(polygon, direction * (reach * i / intervals)) / directions;
     }
     return overlap;
-  }
-
-  /// Integral of the power spectrum over frequencies within f. The disc of radius f has the
-  /// transform f J1(2 pi f s) / s, so by Parseval it is 2 pi f * integral of overlap(s)
-  /// J1(2 pi f s) ds, and by parts overlap(0) + integral of overlap'(s) J0(2 pi f s) ds, which does
-  /// not magnify errors of the quadrature by f.
-  static double energy_within(double f, const std::vector<double>& overlap) {
-    const int last = int(overlap.size()) - 1;
-    // At least 64 midpoints in each period of the Bessel function.
-    const int per_interval = 4 + int(128.0 * f / last);
-    double energy = overlap[0];
-    for (int i = 0; i < last; ++i) {
-      double mean_j0 = 0.0;
-      for (int k = 0; k < per_interval; ++k)
-        mean_j0 += ::j0(4.0 * pi * f * (i + (k + 0.5) / per_interval) / last) / per_interval;
-      energy += (overlap[size_t(i) + 1] - overlap[size_t(i)]) * mean_j0;
-    }
-    return energy;
   }
 
   int blades_;

@@ -1,8 +1,35 @@
 #include "cameras/spectrum.h"
 
+#include <cmath>
+#include <numbers>
+
 #include "base/error.h"
 
 namespace tessera {
+namespace {
+
+/// Integral of the power spectrum over frequencies within f. The disc of radius f has the transform
+/// f J1(2 pi f s) / s, so by Parseval it is 2 pi f * integral of overlap(s) J1(2 pi f s) ds, and by
+/// parts overlap(0) + integral of overlap'(s) J0(2 pi f s) ds, which does not magnify errors of the
+/// quadrature by f.
+double energy_within(double f, std::span<const double> overlap, double reach) {
+  const size_t last = overlap.size() - 1;
+  const double step = reach / double(last);
+  // At least 64 midpoints in each period of the Bessel function.
+  const int per_interval = 4 + int(64.0 * f * step);
+  double energy = overlap[0];
+  for (size_t i = 0; i < last; ++i) {
+    double mean_j0 = 0.0;
+    for (int k = 0; k < per_interval; ++k) {
+      const double distance = step * (double(i) + (k + 0.5) / per_interval);
+      mean_j0 += ::j0(2.0 * std::numbers::pi * f * distance) / per_interval;
+    }
+    energy += (overlap[i + 1] - overlap[i]) * mean_j0;
+  }
+  return energy;
+}
+
+}  // namespace
 
 void check_energy_share(double energy_share) {
   if (!(energy_share > 0.0 && energy_share <= 0.9999))
@@ -39,6 +66,18 @@ double frequency_holding(double energy_share, double total_energy,
     at_start = at_end;
   }
   return highest;
+}
+
+double radius_holding(double energy_share, std::span<const double> overlap, double reach) {
+  check_energy_share(energy_share);
+  const double wanted = energy_share * overlap[0];
+  double low = 0.0, high = 2.0 / reach;
+  while (energy_within(high, overlap, reach) < wanted) low = high, high *= 2.0;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (low + high);
+    (energy_within(middle, overlap, reach) < wanted ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 }  // namespace tessera

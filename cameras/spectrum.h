@@ -2,6 +2,7 @@
 /// Where the energy of a spectrum lies: the numerical part of the profiles' band limits.
 
 #include <functional>
+#include <span>
 
 namespace tessera {
 
@@ -13,6 +14,13 @@ namespace tessera {
 /// (0, 0.9999]: sharp edges spread the last share over frequencies without end.
 double frequency_holding(double energy_share, double total_energy,
                          const std::function<double(double)>& power);
+
+/// Radius within which `energy_share` of the power spectrum of a function of two dimensions lies,
+/// in cycles per unit, from its autocorrelation: `overlap[i]` is the integral of f(p) f(p + s) dp
+/// averaged over the directions of s, for |s| = reach * i / (overlap.size() - 1). It must be 0
+/// beyond `reach`. Serves functions with straight edges, whose spectra have spikes, ever thinner
+/// with frequency, where the autocorrelation is smooth. Throws Error as frequency_holding() does.
+double radius_holding(double energy_share, std::span<const double> overlap, double reach);
 
 /// Throws Error unless `energy_share` is in (0, 0.9999].
 void check_energy_share(double energy_share);

@@ -1,5 +1,6 @@
 #include "engine/bucket_renderer.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace tessera {
@@ -29,12 +30,12 @@ void BucketRenderer::render(int i, int j) {
   timer.lap(times_.sample_s);
   hide(grids);
   timer.lap(times_.hide_s);
-  const ShadeInput input{&fragments_, grids, &samples_};
+  const ShadeInput input = shade_input(grids);
   parts_.shading.shade(input, shaded_, shade_counters_);
   timer.lap(times_.shade_s);
   SampleValues values = composite_samples(input);
   timer.lap(times_.composite_s);
-  if (parts_.heatmap) parts_.heatmap->add_bucket(samples_.rect, pixel_counts_);
+  if (parts_.heatmap) add_to_heatmap();
   parts_.film.add_bucket(i, j, std::move(values));
   timer.lap(times_.reconstruct_s);
   parts_.grids.finish_bucket(i, j);
@@ -56,6 +57,24 @@ void BucketRenderer::hide(const std::vector<std::shared_ptr<const Grid>>& grids)
   if (parts_.heatmap && parts_.heatmap->definition().hide_counts)
     input.*parts_.heatmap->definition().hide_counts = pixel_counts_;
   parts_.hider.hide(input, *scratch_, fragments_, hide_counters_);
+}
+
+ShadeInput BucketRenderer::shade_input(std::span<const std::shared_ptr<const Grid>> grids) {
+  ShadeInput input{&fragments_, grids, &samples_};
+  input.wants_cells =
+      std::ranges::any_of(parts_.channel_groups, [](const auto* group) { return group->of_cells; });
+  shaded_places_.clear();
+  if (parts_.heatmap && parts_.heatmap->definition().shade_places)
+    input.*parts_.heatmap->definition().shade_places = &shaded_places_;
+  return input;
+}
+
+void BucketRenderer::add_to_heatmap() {
+  if (parts_.heatmap->definition().hide_counts) {
+    parts_.heatmap->add_bucket(samples_.rect, pixel_counts_);
+  } else {
+    parts_.heatmap->add_places(shaded_places_);
+  }
 }
 
 SampleValues BucketRenderer::composite_samples(const ShadeInput& input) {

@@ -57,13 +57,16 @@ class BucketRenderer {
 
  private:
   void hide(const std::vector<std::shared_ptr<const Grid>>& grids);
+  ShadeInput shade_input(std::span<const std::shared_ptr<const Grid>> grids);
+  void add_to_heatmap();
   SampleValues composite_samples(const ShadeInput& input);
 
   FrameParts parts_;
   std::unique_ptr<Hider::Scratch> scratch_;
   SampleBlock samples_;
   std::vector<HideGrid> hide_grids_;
-  std::vector<uint32_t> pixel_counts_;  // for the heat map
+  std::vector<uint32_t> pixel_counts_;  // for the heat map, as is
+  std::vector<glm::vec2> shaded_places_;
   FragmentList fragments_;
   ShadedFragments shaded_;
   HideCounters hide_counters_;

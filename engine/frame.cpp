@@ -16,6 +16,7 @@
 #include "engine/overrides.h"
 #include "engine/version.h"
 #include "images/image_module.h"
+#include "reconstruct/pixel_filter.h"
 
 namespace tessera {
 namespace {
@@ -34,6 +35,16 @@ ShadeSetup shade_setup(const Scene& scene, const Camera& camera, Diagnostics& di
     return std::shared_ptr<TextureSampler>(load_image_module()->make_texture_sampler(textures));
   };
   return setup;
+}
+
+ShadingFrame shading_frame(const FramePlan& plan, std::shared_ptr<const ShaderBindings> bindings) {
+  ShadingFrame frame{std::move(bindings), plan.motion, plan.lens};
+  frame.pixel_filter_band_limit = [plan](double energy_share) {
+    return pixel_filter_band_limit(find_pixel_filter(plan.filter), plan.filter_x_width,
+                                   plan.filter_y_width, energy_share);
+  };
+  frame.dicing_ratio = plan.dicing_ratio;
+  return frame;
 }
 
 DiceSettings dice_settings(const FramePlan& plan, const BucketLayout& buckets,
@@ -162,10 +173,7 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   for (const std::string& name : plan.channel_groups) groups.push_back(&find_aov(name));
   const auto film = make_film(plan, buckets, camera, groups, scene.options);
   const auto hider = make_hider(plan.hider);
-  const auto shading = make_shading(plan.shading, {.bindings = bindings,
-                                                   .motion = plan.motion,
-                                                   .lens = plan.lens,
-                                                   .dicing_ratio = plan.dicing_ratio});
+  const auto shading = make_shading(plan.shading, shading_frame(plan, bindings));
   const int threads = thread_count(settings);
   std::optional<Heatmap> heatmap;
   if (settings.heatmap) heatmap.emplace(find_heatmap(*settings.heatmap), camera.crop());

@@ -14,7 +14,9 @@ namespace {
 
 constexpr HeatmapDefinition definitions[] = {
     {"tests", "samples tested against micropolygons in each pixel", "tests per pixel",
-     &HideInput::tests_per_pixel},
+     &HideInput::tests_per_pixel, nullptr},
+    {"shading", "points shaded in each pixel, where they lie at shutter open", "points per pixel",
+     nullptr, &ShadeInput::shaded_at},
 };
 
 /// Control points of the ramp, evenly spaced; CIE L* 0, 16, 32, 51, 69, 84, 98.
@@ -56,6 +58,18 @@ void Heatmap::add_bucket(const PixelRect& rect, std::span<const uint32_t> counts
     uint32_t* to =
         &counts_[size_t(y - pixels_.y0) * size_t(pixels_.width()) + size_t(part.x0 - pixels_.x0)];
     std::copy(from, from + part.width(), to);
+  }
+}
+
+void Heatmap::add_places(std::span<const glm::vec2> raster) {
+  const std::scoped_lock lock(places_mutex_);
+  for (const glm::vec2& at : raster) {
+    const bool inside = at.x >= float(pixels_.x0) && at.x < float(pixels_.x1) &&
+                        at.y >= float(pixels_.y0) && at.y < float(pixels_.y1);
+    filled_ = true;
+    if (!inside) continue;
+    const int x = int(std::floor(at.x)) - pixels_.x0, y = int(std::floor(at.y)) - pixels_.y0;
+    ++counts_[size_t(y) * size_t(pixels_.width()) + size_t(x)];
   }
 }
 

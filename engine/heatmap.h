@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <mutex>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 
 #include "hide/hide.h"
 #include "images/image.h"
+#include "shade/shade.h"
 
 namespace tessera {
 
@@ -19,8 +21,9 @@ struct HeatmapDefinition {
   const char* name;
   const char* help;
   const char* unit;  ///< of a pixel's value
-  /// Where the hider adds its counts. A map of another stage would name that stage's input.
+  /// Where the stage that counts puts what it has: one of the two is set.
   std::span<uint32_t> HideInput::*hide_counts;
+  std::vector<glm::vec2>* ShadeInput::*shade_places;
 };
 
 std::span<const HeatmapDefinition> heatmap_registry();
@@ -39,6 +42,9 @@ class Heatmap {
   /// `counts` of the pixels of `rect`, row-major. May be called at once for buckets that do not
   /// overlap.
   void add_bucket(const PixelRect& rect, std::span<const uint32_t> counts);
+  /// Counts one in the pixel of each raster position; those outside the crop are left out. Thread
+  /// safe.
+  void add_places(std::span<const glm::vec2> raster);
   /// Appends the channel heatmap_channel(name) to an image over the same pixels.
   void add_channel(Image& image) const;
 
@@ -46,6 +52,7 @@ class Heatmap {
   const HeatmapDefinition& definition_;
   PixelRect pixels_;
   std::vector<uint32_t> counts_;
+  std::mutex places_mutex_;
   std::atomic<bool> filled_ = false;
 };
 

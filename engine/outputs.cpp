@@ -96,8 +96,16 @@ bool is_8_bit(const std::string& path) {
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
 }
 
+/// "cell.R" is R in a file that holds nothing else.
+void drop_group_names(Image& image) {
+  for (Image::Channel& channel : image.channels)
+    for (const char* colour : {".R", ".G", ".B"})
+      if (channel.name.ends_with(colour)) channel.name = colour + 1;
+}
+
 /// Writes through the image module: formats other than EXR.
 void write_other(Image image, const std::string& path, bool display_encoded) {
+  drop_group_names(image);
   if (display_encoded && is_8_bit(path)) decode_colours(image);
   load_image_module()->write_image(path, image);
 }

@@ -32,7 +32,7 @@ struct FramePlan {
   /// GeometricApproximation of surfaces that say nothing: the largest powers of two whose error
   /// stays below half of the noise at 64 samples a pixel (docs/dicing.md, Blur).
   float motion_factor = 2, focus_factor = 8;
-  std::string hider = "auto", shading = "reyes";
+  std::string hider = "auto", shading = "aas";
   std::string filter = "gaussian";
   float filter_x_width = 2, filter_y_width = 2;
   std::vector<std::string> channel_groups;  ///< AOVs to compute

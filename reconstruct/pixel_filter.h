@@ -19,4 +19,10 @@ std::span<const PixelFilterDefinition> pixel_filter_registry();
 /// Throws Error that lists the choices when unknown.
 const PixelFilterDefinition& find_pixel_filter(std::string_view name);
 
+/// Radius in cycles per pixel within which `energy_share` of the power spectrum of the
+/// two-dimensional filter lies; widths in pixels. Throws Error unless energy_share is in
+/// (0, 0.9999] and the widths are positive and finite.
+double pixel_filter_band_limit(const PixelFilterDefinition& filter, double x_width, double y_width,
+                               double energy_share);
+
 }  // namespace tessera

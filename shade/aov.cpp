@@ -11,17 +11,17 @@ void alpha_of(const CompositedSample& sample, float* out) {
   out[0] = (sample.opacity.x + sample.opacity.y + sample.opacity.z) / 3.0f;
 }
 
-void depth_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
-  out[0] = input.fragments->z[fragment];
+void depth_of(const AovInput& input, size_t fragment, float* out) {
+  out[0] = input.bucket.fragments->z[fragment];
 }
 
-void position_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
-  const FragmentGeometry seen(input, fragment);
+void position_of(const AovInput& input, size_t fragment, float* out) {
+  const FragmentGeometry seen(input.bucket, fragment);
   put(seen.P_camera(seen.time), out);
 }
 
-void normal_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
-  const FragmentGeometry seen(input, fragment);
+void normal_of(const AovInput& input, size_t fragment, float* out) {
+  const FragmentGeometry seen(input.bucket, fragment);
   const Grid& grid = *seen.grid;
   const glm::vec3 sum(seen.interpolate(grid.N(0)), seen.interpolate(grid.N(1)),
                       seen.interpolate(grid.N(2)));
@@ -29,26 +29,32 @@ void normal_of(const ShadeInput& input, size_t fragment, const Camera&, float* o
   put(length > 0.0f ? sum / length : glm::vec3(0.0f), out);
 }
 
-void st_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
-  const FragmentGeometry seen(input, fragment);
+void st_of(const AovInput& input, size_t fragment, float* out) {
+  const FragmentGeometry seen(input.bucket, fragment);
   const float* st = seen.grid->st.data();
   out[0] = seen.interpolate(st);
   out[1] = seen.interpolate(st + seen.grid->stride());
 }
 
-void motion_of(const ShadeInput& input, size_t fragment, const Camera& camera, float* out) {
+void motion_of(const AovInput& input, size_t fragment, float* out) {
   out[0] = out[1] = 0.0f;
-  const FragmentGeometry seen(input, fragment);
+  const FragmentGeometry seen(input.bucket, fragment);
   if (seen.grid->key_count() < 2) return;
-  const glm::vec3 open = camera.raster_clip_from_camera(seen.P_camera(0.0f));
-  const glm::vec3 close = camera.raster_clip_from_camera(seen.P_camera(1.0f));
+  const glm::vec3 open = input.camera.raster_clip_from_camera(seen.P_camera(0.0f));
+  const glm::vec3 close = input.camera.raster_clip_from_camera(seen.P_camera(1.0f));
   if (!(open.z > 0.0f && close.z > 0.0f)) return;  // at or behind the eye there is no raster place
   out[0] = close.x / close.z - open.x / open.z;
   out[1] = close.y / close.z - open.y / open.z;
 }
 
-void id_of(const ShadeInput& input, size_t fragment, const Camera&, float* out) {
-  out[0] = float(input.grids[input.fragments->grid[fragment]]->id.surface + 1);
+void id_of(const AovInput& input, size_t fragment, float* out) {
+  out[0] = float(input.bucket.grids[input.bucket.fragments->grid[fragment]]->id.surface + 1);
+}
+
+/// A colour for each cell, so that neighbours can be told apart.
+void cell_of(const AovInput& input, size_t fragment, float* out) {
+  uint32_t hash = input.shaded.cell[fragment];
+  for (int c = 0; c < 3; ++c, hash >>= 8) out[c] = 0.1f + 0.9f * float(hash & 255) / 255.0f;
 }
 
 /// Depth where nothing is seen: RI_INFINITY of the RenderMan Interface.
@@ -82,6 +88,15 @@ std::span<const AovEvaluator> evaluators() {
       {{"id", "number of the surface in scene order, from 1", {"id"}, closest, 0.0f},
        nullptr,
        id_of},
+      {{"cell",
+        "a colour for each shading cell, as they lie at shutter open",
+        {"cell.R", "cell.G", "cell.B"},
+        closest,
+        0.0f,
+        true},
+       nullptr,
+       cell_of,
+       true},
   };
   return table;
 }

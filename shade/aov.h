@@ -12,14 +12,23 @@ struct CompositedSample {
   glm::vec3 opacity{0.0f};  ///< sum of Oi likewise, without that of matte surfaces
 };
 
+/// What values of surfaces are made from.
+struct AovInput {
+  const ShadeInput& bucket;
+  const ShadedFragments& shaded;
+  const Camera& camera;
+};
+
 /// A channel group with its evaluator: one of the two functions is set. Both write the group's
 /// channels to `out`.
 struct AovEvaluator {
   AovDefinition definition;
   void (*of_sample)(const CompositedSample& sample, float* out) = nullptr;
   /// Of the nearest surface seen in a sample.
-  void (*of_surface)(const ShadeInput& input, size_t fragment, const Camera& camera,
-                     float* out) = nullptr;
+  void (*of_surface)(const AovInput& input, size_t fragment, float* out) = nullptr;
+  /// The sample of a pixel that was taken nearest to shutter open and the lens centre stands for
+  /// all of them, so that what lies still in shading space is not scattered by the blur.
+  bool at_opening = false;
 };
 
 /// The evaluator behind `definition`, by name. Throws Error when there is none.

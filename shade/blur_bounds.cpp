@@ -137,7 +137,7 @@ void set_motion(const Grid& grid, const RasterClipMap& map, BlurBounds& bounds) 
   if (!(separation.distance > 0.0)) return;
   set_directions(velocities, separation, bounds);
   // All lie on one side of a line through the origin; only rounding can make a half turn of that.
-  if (bounds.half_span_radians < 0.5f * std::numbers::pi_v<float>)
+  if (bounds.half_span_radians <= 0.5f * std::numbers::pi_v<float>)
     bounds.min_speed = rounded_down(separation.distance);
 }
 

@@ -19,7 +19,7 @@ struct BlurBounds {
   float min_speed = 0;          ///< pixels per shutter, seen through the lens centre; 0: stands
                                 ///< still somewhere, or not bounded
   glm::vec2 direction{1, 0};    ///< unit, raster; centre of the directions of motion
-  float half_span_radians = 0;  ///< directions lie within this of `direction`; less than pi / 2
+  float half_span_radians = 0;  ///< directions lie within this of `direction`; at most pi / 2
   float min_coc = 0;            ///< pixels per unit lens coordinate; 0 where it changes sign
 };
 

@@ -64,6 +64,33 @@ void for_samples(size_t samples, size_t channels, std::vector<float>& out, Write
   }
 }
 
+/// The sample of a pixel nearest to shutter open and the lens centre that sees something, or the
+/// first.
+size_t opening_sample(const SampleBlock& samples, size_t first, std::span<const size_t> nearest) {
+  size_t best = first;
+  float least = std::numeric_limits<float>::infinity();
+  for (size_t s = first; s < first + size_t(samples.samples_per_pixel); ++s) {
+    if (nearest[s] == nothing) continue;
+    const float t = samples.t.empty() ? 0.0f : samples.t[s];
+    const float u = samples.u.empty() ? 0.0f : samples.u[s];
+    const float v = samples.u.empty() ? 0.0f : samples.v[s];
+    const float distance = t * t + u * u + v * v;
+    if (distance < least) best = s, least = distance;
+  }
+  return best;
+}
+
+/// Gives all samples of a pixel the values of its opening_sample().
+void spread_opening(const SampleBlock& samples, std::span<const size_t> nearest, size_t channels,
+                    std::vector<float>& values) {
+  const size_t spp = size_t(samples.samples_per_pixel), count = samples.size();
+  for (size_t first = 0; first < count; first += spp) {
+    const size_t from = opening_sample(samples, first, nearest);
+    for (size_t c = 0; c < channels; ++c)
+      std::fill_n(&values[c * count + first], spp, values[c * count + from]);
+  }
+}
+
 }  // namespace
 
 void composite(const ShadeInput& input, const ShadedFragments& shaded, const Camera& camera,
@@ -95,10 +122,11 @@ void composite(const ShadeInput& input, const ShadedFragments& shaded, const Cam
     for_samples(samples, channels, out[g], [&](size_t s, float* values) {
       if (evaluator.of_sample) return evaluator.of_sample(composited[s], values);
       if (nearest[s] != nothing) {
-        return evaluator.of_surface(input, nearest[s], camera, values);
+        return evaluator.of_surface({input, shaded, camera}, nearest[s], values);
       }
       std::fill_n(values, channels, evaluator.definition.background);
     });
+    if (evaluator.at_opening) spread_opening(*input.samples, nearest, channels, out[g]);
   }
 }
 

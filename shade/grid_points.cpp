@@ -59,13 +59,13 @@ void GridPoints::fill_incident(const Grid& grid, const Camera& camera) {
 }
 
 void GridPoints::fill_footprints(const Grid& grid) {
-  dPdu_.reset(grid.vertex_count());
-  dPdv_.reset(grid.vertex_count());
+  for (Vec3Array* array : {&dPdu_, &dPdv_, &dNdu_, &dNdv_}) array->reset(grid.vertex_count());
   for (int axis = 0; axis < 3; ++axis) {
     grid_differences(grid, grid.P(0, axis), dPdu_.component(axis), dPdv_.component(axis));
+    grid_differences(grid, grid.N(axis), dNdu_.component(axis), dNdv_.component(axis));
   }
-  points_.dPdx = dPdu_;
-  points_.dPdy = dPdv_;
+  points_.dPdx = dPdu_, points_.dPdy = dPdv_;
+  points_.dNdx = dNdu_, points_.dNdy = dNdv_;
   const size_t stride = grid.stride();
   st_differences_.assign(4 * stride, 0.0f);
   float* d = st_differences_.data();

@@ -23,7 +23,7 @@ class GridPoints {
   void fill_footprints(const Grid& grid);
 
   ShadingPoints points_;
-  Vec3Array I_, dPdu_, dPdv_;
+  Vec3Array I_, dPdu_, dPdv_, dNdu_, dNdv_;
   AlignedVector<float> st_differences_;  ///< [dsdu, dtdu, dsdv, dtdv][vertex]
 };
 

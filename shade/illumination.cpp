@@ -1,18 +1,20 @@
 #include "shade/illumination.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "shade/normal_spread.h"
 
 namespace tessera {
 namespace {
 
-/// Sharper highlights than this are narrower than any shading cell; it also keeps 1 / roughness
-/// finite.
+/// Keeps 1 / roughness finite.
 constexpr float least_roughness = 1e-4f;
 
-void add_diffuse(const LightSamples& light, const Vec3Input& N, int count, Vec3Array& sum) {
-  for (int i = 0; i < count; ++i) {
-    sum.add(i, light.Cl[i] * std::max(0.0f, glm::dot(N[i], light.L[i])));
+void add_diffuse(const LightSamples& light, const ShadingPoints& points, const Vec3Input& N,
+                 Vec3Array& sum) {
+  for (int i = 0; i < points.count; ++i) {
+    const glm::vec3 n = N[i];
+    sum.add(i, light.Cl[i] * mean_clamped_cosine(n, light.L[i], normal_spread(points, i, n)));
   }
 }
 
@@ -21,11 +23,10 @@ void add_specular(const LightSamples& light, const ShadingPoints& points, const 
   for (int i = 0; i < points.count; ++i) {
     const glm::vec3 n = N[i], l = light.L[i];
     if (glm::dot(n, l) <= 0.0f) continue;
-    const glm::vec3 h = l - points.I[i];
-    const float n_dot_h = glm::dot(n, h);
-    if (n_dot_h <= 0.0f) continue;  // also where h is zero: light straight behind a grazing point
-    const float cosine = n_dot_h / glm::length(h);
-    sum.add(i, light.Cl[i] * std::pow(cosine, 1.0f / std::max(roughness[i], least_roughness)));
+    const float exponent = 1.0f / std::max(roughness[i], least_roughness);
+    const glm::vec3 h = l - points.I[i];  // zero where the light is straight behind the point
+    sum.add(i,
+            light.Cl[i] * mean_specular_lobe(n, h, exponent, half_vector_spread(points, i, n, h)));
   }
 }
 
@@ -47,7 +48,7 @@ void gather_light(std::span<const BoundLight* const> lights, const ShadingPoints
       for (int i = 0; i < points.count; ++i) out.ambient.add(i, samples.Cl[i]);
       continue;
     }
-    add_diffuse(samples, N, points.count, out.diffuse);
+    add_diffuse(samples, points, N, out.diffuse);
     if (roughness) add_specular(samples, points, N, *roughness, out.specular);
   }
 }

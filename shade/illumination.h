@@ -9,7 +9,8 @@
 
 namespace tessera {
 
-/// Sums over the lights, one entry a point.
+/// Sums over the lights, one entry a point. Where the cell's normals are known to vary, the clamped
+/// cosine and the power are means over them (shade/normal_spread.h).
 struct Illumination {
   Vec3Array ambient;   ///< sum of the ambient lights
   Vec3Array diffuse;   ///< sum of Cl * max(0, N . L)

@@ -46,7 +46,6 @@ int cells_per_edge(const ShadingFrame& frame) {
 struct LatticeShading::BucketCells {
   std::vector<GridCells> grids;            ///< as the input's
   std::vector<uint32_t> cell_of_fragment;  ///< place among the cells of the bucket
-  std::vector<uint64_t> names;             ///< [place] if the input wants cells
   size_t count = 0;
 };
 
@@ -82,7 +81,6 @@ LatticeShading::BucketCells LatticeShading::cells_of(const ShadeInput& input,
       const auto [place, is_new] = index.insert(name);
       if (is_new) {
         grid.keys.push_back(key), grid.cells.push_back(cell), grid.places.push_back(place);
-        if (input.wants_cells) bucket.names.push_back(name);
       }
       last_key = key, last_grid = g, last_place = place;
     }
@@ -139,9 +137,26 @@ void LatticeShading::shade(const ShadeInput& input, ShadedFragments& out, ShadeC
   }
   shader_.give(bucket.cell_of_fragment, values, out);
   out.cell.clear();
-  if (!input.wants_cells) return;
-  for (const uint32_t place : bucket.cell_of_fragment)
-    out.cell.push_back(uint32_t(bucket.names[place]));
+  if (input.wants_cells) show_cells(input, bucket, out.cell);
+}
+
+/// The lattice of the grid that each fragment sees, as it lies over the fragment's pixel: the cells
+/// themselves, still and whole, where the samples' own would be scattered by the blur.
+void LatticeShading::show_cells(const ShadeInput& input, const BucketCells& bucket,
+                                std::vector<uint32_t>& cells) const {
+  const FragmentList& fragments = *input.fragments;
+  const PixelRect& rect = input.samples->rect;
+  for (size_t f = 0; f < fragments.size(); ++f) {
+    const uint32_t g = fragments.grid[f];
+    const ShadingSpace& space = *bucket.grids[g].memo->space;
+    const int pixel = int(fragments.sample[f]) / input.samples->samples_per_pixel;
+    const glm::vec2 centre(float(rect.x0 + pixel % rect.width()) + 0.5f,
+                           float(rect.y0 + pixel / rect.width()) + 0.5f);
+    const ShadingCell own = space.cell_of(point_of(fragments, f));
+    const glm::ivec2 cell = space.parametric() ? glm::ivec2(own.x, own.y) : space.cell_over(centre);
+    const uint64_t name = grid_name(input.grids[g]->id);
+    cells.push_back(uint32_t(cell_name(name, uint64_t(cell.x), uint64_t(cell.y))));
+  }
 }
 
 void LatticeShading::requests(const ShadeInput& input, size_t fragment,

@@ -30,6 +30,8 @@ class LatticeShading : public Shading {
 
   CellMemo& memo_of(const Grid& grid, ShadeCounters* counters);
   BucketCells cells_of(const ShadeInput& input, ShadeCounters& counters);
+  void show_cells(const ShadeInput& input, const BucketCells& bucket,
+                  std::vector<uint32_t>& cells) const;
   void shade_claimed(const ShadeInput& input, BucketCells& bucket, ShadeCounters& counters) const;
 
   CellShader shader_;

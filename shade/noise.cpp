@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "shade/mathematics.h"
+#include "shade/pattern_points.h"
 
 namespace tessera {
 namespace {
@@ -97,6 +98,22 @@ float filtered_square_wave(float x, float width) {
 
 float filtered_checker(glm::vec2 st, glm::vec2 width) {
   return 0.5f + 0.5f * filtered_square_wave(st.x, width.x) * filtered_square_wave(st.y, width.y);
+}
+
+float checker_over_cell(glm::vec2 st, glm::vec2 x, glm::vec2 y) {
+  const CellAxes<glm::vec2> axes = principal_axes(x, y);
+  const glm::vec2 length = glm::abs(axes.major), width = glm::abs(axes.minor);
+  // A cell that is long in one of s and t only is close to a box already.
+  const int taps = std::min(taps_along(length.x, width.x), taps_along(length.y, width.y));
+  if (taps == 1) return filtered_checker(st, glm::abs(x) + glm::abs(y));
+  // The part of the cell around a tap is a parallelogram too: a box with its variances.
+  const glm::vec2 part = glm::sqrt(length * length / float(taps * taps) + width * width);
+  float sum = 0.0f;
+  for (int tap = 0; tap < taps; ++tap) {
+    const float offset = (float(tap) + 0.5f) / float(taps) - 0.5f;
+    sum += filtered_checker(st + offset * axes.major, part);
+  }
+  return sum / float(taps);
 }
 
 }  // namespace tessera

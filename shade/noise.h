@@ -31,4 +31,9 @@ float filtered_square_wave(float x, float width);
 /// product of square waves.
 float filtered_checker(glm::vec2 st, glm::vec2 width);
 
+/// The share of white around (s, t) in the parallelogram with edges `x` and `y`, which hold the
+/// footprint of a shading cell. Exact along the axes of s and t; otherwise the box that holds the
+/// parallelogram, or where it is long and oblique, up to 16 boxes along it.
+float checker_over_cell(glm::vec2 st, glm::vec2 x, glm::vec2 y);
+
 }  // namespace tessera

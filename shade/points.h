@@ -41,6 +41,8 @@ struct ShadingPoints {
   StFootprint st_footprint;
   /// The change of the unit normal likewise, for lobes to be widened by. Null x: not known.
   Vec3Input dNdx, dNdy;
+  /// Mean squared deviation of the unit normal within the cell besides that linear change; null: 0.
+  const float* normal_variance = nullptr;
   /// cross(dPdx, dPdy) times this sign points outward.
   float normal_sign = 1.0f;
   std::vector<PrimvarView> primvars;

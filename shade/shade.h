@@ -48,7 +48,9 @@ struct ShadedFragments {
   /// [term] What each light whose shadows have a rate of their own adds to Ci where nothing shadows
   /// it (shade/shader.h).
   std::vector<std::array<std::vector<float>, 3>> light_terms;
-  std::vector<uint32_t> cell;  ///< a hash of the cell that was shaded for it, if asked for
+  /// If asked for, a hash of the cell of its grid that lies over its pixel at shutter open: where
+  /// there is no blur the cell that it was shaded by.
+  std::vector<uint32_t> cell;
 };
 
 /// What a fragment asks a memo of shaded values for: the name of its cell, and of the block of 2 x
@@ -122,13 +124,14 @@ bool wants_primvar(const ShaderBindings& bindings, const Attributes& attributes,
 enum class ChannelFilter { filtered, closest };  ///< closest: the value of the nearest surface seen
 
 /// A channel group that a Display or --aov can ask for (table in shade/aov.cpp): "rgb", "a", "z",
-/// "Ci", "Oi", "P", "N", "st", "motion", "id".
+/// "Ci", "Oi", "P", "N", "st", "motion", "id", "cell".
 struct AovDefinition {
   const char* name;
   const char* help;
   std::vector<std::string> channels;  ///< EXR channel names: R G B; A; Z; P.x P.y P.z; ...
   ChannelFilter filter;
-  float background;  ///< where nothing is seen
+  float background;       ///< where nothing is seen
+  bool of_cells = false;  ///< needs ShadeInput::wants_cells
 };
 std::span<const AovDefinition> aov_registry();
 /// Throws Error that lists the choices when unknown.

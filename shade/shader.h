@@ -9,6 +9,7 @@
 
 #include "shade/illumination.h"
 #include "shade/parameters.h"
+#include "shade/pattern_points.h"
 #include "shade/points.h"
 #include "shade/shade.h"
 
@@ -56,10 +57,11 @@ struct ShaderServices {
   ShadeCounters* counters = nullptr;
 };
 
-/// Points in the space a solid pattern lives in.
-struct PatternPoints {
-  Vec3Array P;                     ///< shader space
-  AlignedVector<float> footprint;  ///< length of a shading cell there; 0: do not filter
+/// Directions and how they differ within each point's shading cell, camera space.
+struct CellDirections {
+  Vec3Array direction;           ///< unit
+  Vec3Array dx, dy;              ///< change over the cell along its two axes
+  AlignedVector<float> scatter;  ///< variance besides, radians^2 in each tangential direction
 };
 
 /// One run of one shader over one batch.
@@ -87,9 +89,11 @@ class ShaderContext {
   /// The texture `file` at the points' own st, filtered over their footprints; magenta when the
   /// file is missing.
   Vec3Array texture(const std::string& file) const;
-  /// The latitude-longitude environment map `file` in the world directions of `direction_camera`
-  /// (unit), blurred over `blur` radians. Longitude 0 is world +x, z is up.
-  Vec3Array environment(const std::string& file, const Vec3Array& direction_camera,
+  /// Mirror directions of the view about the unit normals `N`, which are points().N or opposite.
+  CellDirections mirror_directions(const Vec3Array& N) const;
+  /// The latitude-longitude environment map `file` in the world directions of `directions`, blurred
+  /// over their cells and over `blur` radians. Longitude 0 is world +x, z is up.
+  Vec3Array environment(const std::string& file, const CellDirections& directions,
                         const ScalarInput& blur) const;
 
   /// Points in shader space: the primitive variable Pref where there is one, so that patterns stick

@@ -117,6 +117,11 @@ ShadingCell ShadingSpace::cell_of(const SurfacePoint& point) const {
   return {charts_.of(point.triangle), whole(p.x, x_cells_), whole(p.y, y_cells_)};
 }
 
+glm::ivec2 ShadingSpace::cell_over(const glm::vec2& raster) const {
+  const glm::dvec2 p = glm::clamp(lattice_.from_raster(raster), -1e9, 1e9);
+  return {int(std::floor(p.x)), int(std::floor(p.y))};
+}
+
 SurfacePoint ShadingSpace::shading_point(const ShadingCell& cell) const {
   return index_->nearest(cell.chart, float(cell.x) + 0.5f, float(cell.y) + 0.5f, 0.5f);
 }

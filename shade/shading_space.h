@@ -45,6 +45,9 @@ class ShadingSpace {
   ShadingCell cell_of(const SurfacePoint& point) const;
   /// The point of the cell's sheet nearest the cell's centre. Needs prepare_search().
   SurfacePoint shading_point(const ShadingCell& cell) const;
+  /// The cell of the lattice over a raster position, whether the grid reaches there or not. Only
+  /// where the space is not parametric.
+  glm::ivec2 cell_over(const glm::vec2& raster) const;
   CellFootprint footprint(const SurfacePoint& point) const;
   /// Raster position of a point at shutter open. Only where the space is not parametric.
   glm::vec2 raster_of(const SurfacePoint& point) const;

@@ -27,6 +27,10 @@ bool finite(const TexturePoints& p, size_t i) {
          std::isfinite(p.dtdx[i]) && std::isfinite(p.dsdy[i]) && std::isfinite(p.dtdy[i]);
 }
 
+/// Beyond this many repetitions of the texture nothing but its mean is left; the squares of larger
+/// footprints overflow in the library, which then does not filter at all.
+float limited(float change) { return std::clamp(change, -1e6f, 1e6f); }
+
 class OiioTextureSampler final : public TextureSampler {
  public:
   explicit OiioTextureSampler(const TextureSettings& settings)
@@ -65,8 +69,9 @@ class OiioTextureSampler final : public TextureSampler {
       std::fill_n(value, channels, 0.0f);
       OIIO::TextureOpt options = base;  // the system writes to it
       if (finite(points, i) &&
-          !system_->texture(handle, thread, options, points.s[i], points.t[i], points.dsdx[i],
-                            points.dtdx[i], points.dsdy[i], points.dtdy[i], channels, value))
+          !system_->texture(handle, thread, options, points.s[i], points.t[i],
+                            limited(points.dsdx[i]), limited(points.dtdx[i]),
+                            limited(points.dsdy[i]), limited(points.dtdy[i]), channels, value))
         return failure(request.file);
       for (int c = 0; c < channels; ++c) out[size_t(c) * count + i] = value[c];
     }

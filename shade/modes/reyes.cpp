@@ -34,6 +34,12 @@ Place place_of(const Grid& grid, const FragmentList& fragments, size_t f) {
   return {corner, {1.0f - b1 - b2, b1, b2}};
 }
 
+uint32_t nearest_vertex_name(const Grid& grid, const Place& place) {
+  const auto heaviest = std::max_element(place.weight.begin(), place.weight.end());
+  const int vertex = place.corner[size_t(heaviest - place.weight.begin())];
+  return uint32_t(cell_name(grid_name(grid.id), uint64_t(vertex), 0));
+}
+
 void interpolate(const std::vector<std::array<float, 3>>& values, const Place& place, size_t f,
                  std::array<std::vector<float>, 3>& out) {
   const auto& [p, q, r] = place.corner;
@@ -65,12 +71,14 @@ class ReyesShading : public Shading {
       out.Ci[c].resize(fragments.size());
       out.Oi[c].resize(fragments.size());
     }
+    out.cell.resize(input.wants_cells ? fragments.size() : 0);
     std::vector<const VertexColors*> colors(input.grids.size(), nullptr);
     for (size_t f = 0; f < fragments.size(); ++f) {
       const Grid& grid = *input.grids[fragments.grid[f]];
       const VertexColors*& shaded = colors[fragments.grid[f]];
-      if (!shaded) shaded = &vertex_colors(grid, counters);
+      if (!shaded) shaded = &vertex_colors(grid, input.shaded_at, counters);
       const Place place = place_of(grid, fragments, f);
+      if (input.wants_cells) out.cell[f] = nearest_vertex_name(grid, place);
       interpolate(shaded->Ci, place, f, out.Ci);
       if (shaded->Oi.empty()) {
         for (size_t c = 0; c < 3; ++c) out.Oi[c][f] = 1.0f;
@@ -92,12 +100,24 @@ class ReyesShading : public Shading {
   }
 
  private:
-  const VertexColors& vertex_colors(const Grid& grid, ShadeCounters& counters) {
+  const VertexColors& vertex_colors(const Grid& grid, std::vector<glm::vec2>* shaded_at,
+                                    ShadeCounters& counters) {
     VertexColors& colors =
         attachments_.of<VertexColors>(grid, [] { return std::make_unique<VertexColors>(); });
     // Not under the attachment's lock: other grids that share it need not wait for shaders.
-    std::call_once(colors.shaded, [&] { shade_vertices(grid, colors, counters); });
+    std::call_once(colors.shaded, [&] {
+      shade_vertices(grid, colors, counters);
+      if (shaded_at) append_places(grid, *shaded_at);
+    });
     return colors;
+  }
+
+  void append_places(const Grid& grid, std::vector<glm::vec2>& places) const {
+    for (int i = 0; i < grid.vertex_count(); ++i) {
+      const glm::vec3 clip = bindings_->camera().raster_clip_from_camera(
+          {grid.P(0, 0)[i], grid.P(0, 1)[i], grid.P(0, 2)[i]});
+      if (clip.z > 0.0f) places.push_back({clip.x / clip.z, clip.y / clip.z});
+    }
   }
 
   void shade_vertices(const Grid& grid, VertexColors& colors, ShadeCounters& counters) const {

@@ -25,8 +25,10 @@ void surface(const ShaderContext& context, SurfaceColors& out) {
   const PatternPoints pattern = context.pattern_points();
   Vec3Array base(points.count);
   for (int i = 0; i < points.count; ++i) {
-    const float share = vein(frequency[i] * pattern.P[i],
-                             std::abs(frequency[i]) * pattern.footprint[size_t(i)], veining[i]);
+    const auto vein_at = [&](const glm::vec3& P, float footprint) {
+      return vein(frequency[i] * P, std::abs(frequency[i]) * footprint, veining[i]);
+    };
+    const float share = pattern.average_over_cell(i, vein_at);
     base.set(i, glm::mix(points.Cs[i], vein_color[i], share));
   }
   shade_plastic(context, base, out);

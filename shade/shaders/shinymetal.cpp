@@ -3,13 +3,6 @@
 namespace tessera {
 namespace {
 
-/// Mirror directions of the view, camera space.
-Vec3Array mirror_directions(const ShadingPoints& points, const Vec3Array& N) {
-  Vec3Array mirrored(points.count);
-  for (int i = 0; i < points.count; ++i) mirrored.set(i, glm::reflect(points.I[i], N[i]));
-  return mirrored;
-}
-
 void surface(const ShaderContext& context, SurfaceColors& out) {
   const ShadingPoints& points = context.points();
   const ScalarInput Ka = context.scalar("Ka"), Ks = context.scalar("Ks");
@@ -20,7 +13,7 @@ void surface(const ShaderContext& context, SurfaceColors& out) {
   // Without a map the surroundings are black, as in the Interface.
   const Vec3Array seen = map.empty()
                              ? Vec3Array(points.count)
-                             : context.environment(map, mirror_directions(points, N), roughness);
+                             : context.environment(map, context.mirror_directions(N), roughness);
   for (int i = 0; i < points.count; ++i) {
     const glm::vec3 sum = Ka[i] * light.ambient[i] + Ks[i] * light.specular[i] + Kr[i] * seen[i];
     out.Oi.set(i, points.Os[i]);
@@ -30,8 +23,8 @@ void surface(const ShaderContext& context, SurfaceColors& out) {
 
 }  // namespace
 
-/// RenderMan Interface 3.2, appendix A.1.4, except that the map is blurred by the roughness: the
-/// spread of mirror directions over a shading cell is not known, and an unblurred map would alias.
+/// RenderMan Interface 3.2, appendix A.1.4, except that the map is blurred by the roughness, as the
+/// highlights are.
 ShaderDefinition shader_shinymetal() {
   return {.name = "shinymetal",
           .help = "metal that mirrors an environment map",

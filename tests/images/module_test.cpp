@@ -37,6 +37,10 @@ struct Points {
     s.push_back(ps), t.push_back(pt);
     dsdx.push_back(width), dtdx.push_back(0), dsdy.push_back(0), dtdy.push_back(width);
   }
+  void add_footprint(float ps, float pt, float ds_x, float dt_x, float ds_y, float dt_y) {
+    s.push_back(ps), t.push_back(pt);
+    dsdx.push_back(ds_x), dtdx.push_back(dt_x), dsdy.push_back(ds_y), dtdy.push_back(dt_y);
+  }
   TexturePoints view() const { return {s, t, dsdx, dtdx, dsdy, dtdy}; }
 };
 
@@ -153,6 +157,96 @@ TEST_CASE("textures are found along the search path and filtered") {
     REQUIRE(sampler->sample({.file = "ramp.exr"}, bad.view(), values).found);
     CHECK(values[0] == 0.0f);
     CHECK(values[1] == Approx(0.5).margin(5e-3));
+  }
+}
+
+TEST_CASE("long footprints keep stripes along them and average stripes across them") {
+  const TemporaryFolder folder;
+  const int size = 256, period = 16;
+  // A cosine in s, constant in t.
+  const double waves = double(size) / period;
+  const auto stripe = [&](double s) { return 0.5 + 0.5 * std::cos(2.0 * M_PI * waves * s); };
+  Image stripes(size, size);
+  auto& values = stripes.add_channel("Y").values;
+  for (int y = 0; y < size; ++y) {
+    for (int x = 0; x < size; ++x) values[stripes.index(x, y)] = float(stripe((x + 0.5) / size));
+  }
+  write_exr(folder.file("stripes.exr"), stripes);
+  const auto sampler = load_image_module(module_file)->make_texture_sampler({});
+  const float texel = 1.0f / size, bright = 8.0f / 16, dark = 8.5f / 16;
+  const auto lookup = [&](const Points& points) {
+    std::vector<float> out(points.s.size(), -1.0f);
+    REQUIRE(
+        sampler
+            ->sample({.file = folder.file("stripes.exr"), .channel_count = 1}, points.view(), out)
+            .found);
+    return out;
+  };
+
+  SECTION("sixteen to one, along either axis of the cell, and turned cells") {
+    Points points;
+    for (float s : {bright, dark}) {
+      points.add_footprint(s, 0.4f, texel, 0, 0, 16 * texel);
+      points.add_footprint(s, 0.4f, 0, 16 * texel, texel, 0);
+    }
+    for (float s : {bright, dark}) {
+      points.add_footprint(s, 0.4f, 16 * texel, 0, 0, texel);
+      points.add_footprint(s, 0.4f, 0, texel, 16 * texel, 0);
+      points.add_footprint(s, 0.4f, 32 * texel, 0, 0, 2 * texel);
+    }
+    const std::vector<float> found = lookup(points);
+    for (size_t i = 0; i < 2; ++i) CHECK(found[i] == Approx(1.0).margin(0.06));
+    for (size_t i = 2; i < 4; ++i) CHECK(found[i] == Approx(0.0).margin(0.06));
+    for (size_t i = 4; i < found.size(); ++i) {
+      INFO(i);
+      CHECK(found[i] == Approx(0.5).margin(0.1));
+    }
+  }
+  SECTION("beyond sixteen the shorter axis widens: blurred rather than aliased") {
+    Points points;
+    for (float s : {bright, dark}) {
+      points.add_footprint(s, 0.4f, texel, 0, 0, 64 * texel);    // as wide as 4 texels: kept
+      points.add_footprint(s, 0.4f, 64 * texel, 0, 0, texel);    // the mean
+      points.add_footprint(s, 0.4f, texel, 0, 0, 4000 * texel);  // as wide as 250: the mean
+    }
+    const std::vector<float> found = lookup(points);
+    CHECK(found[0] > 0.75f);
+    CHECK(found[3] < 0.25f);
+    for (size_t i : {1, 2, 4, 5}) {
+      INFO(i);
+      CHECK(found[i] == Approx(0.5).margin(0.1));
+    }
+  }
+  SECTION("no footprint, no second axis, parallel axes") {
+    Points points;
+    for (float s : {bright, dark}) {
+      points.add_footprint(s, 0.4f, 0, 0, 0, 0);
+      points.add_footprint(s, 0.4f, 0, 4 * texel, 0, 0);
+      points.add_footprint(s, 0.4f, 0, 4 * texel, 0, 4 * texel);
+      points.add_footprint(s, 0.4f, 1e-30f, 0, 0, 1e-30f);
+    }
+    const std::vector<float> found = lookup(points);
+    for (size_t i = 0; i < 4; ++i) CHECK(found[i] == Approx(1.0).margin(0.06));
+    for (size_t i = 4; i < 8; ++i) CHECK(found[i] == Approx(0.0).margin(0.06));
+  }
+  SECTION("a footprint that is not finite gives 0, a huge one the mean") {
+    const float nan = std::nanf(""), infinite = HUGE_VALF;
+    Points points;
+    points.add_footprint(bright, 0.4f, nan, 0, 0, texel);
+    points.add_footprint(bright, 0.4f, texel, 0, 0, infinite);
+    points.add_footprint(bright, 0.4f, texel, 0, 0, texel);
+    for (float huge : {2.0f, 1e4f, 1e8f, 1e30f}) {
+      points.add_footprint(bright, 0.4f, huge, 0, 0, huge);
+      points.add_footprint(bright, 0.4f, huge, 0, 0, texel);
+    }
+    const std::vector<float> found = lookup(points);
+    CHECK(found[0] == 0.0f);
+    CHECK(found[1] == 0.0f);
+    CHECK(found[2] == Approx(1.0).margin(0.06));
+    for (size_t i = 3; i < found.size(); ++i) {
+      INFO(i);
+      CHECK(found[i] == Approx(0.5).margin(0.06));
+    }
   }
 }
 

@@ -128,9 +128,10 @@ inline std::shared_ptr<Parameter> add_primvar(
   return source;
 }
 
-/// What the surface shader gives at the vertices of `grid`.
-inline SurfaceColors run_surface(const ShaderBindings& bindings, const Grid& grid) {
-  const GridPoints batch(grid, bindings.camera(), Footprints::over_micropolygons);
+/// What the surface shader gives at the vertices of `grid`, over micropolygons or at bare points.
+inline SurfaceColors run_surface(const ShaderBindings& bindings, const Grid& grid,
+                                 Footprints footprints = Footprints::over_micropolygons) {
+  const GridPoints batch(grid, bindings.camera(), footprints);
   ShadeCounters counters;
   const SurfaceBinding& binding = bindings.of(grid.attributes());
   const ShaderContext context(binding.surface, batch.points(),

@@ -85,7 +85,9 @@ TEST_CASE("shinymetal sees the environment in the world's mirror direction") {
   // At (1, 0, 1) it is (1, 0, -1) / sqrt(2): longitude 0 is s = 1/2, 135 degrees from the pole.
   CHECK(colors.Ci[5].x == Approx(0.5));
   CHECK(colors.Ci[5].y == Approx(0.75));
-  CHECK(colors.Ci[5].z == Approx(0.2 / (2.0 * pi) * std::sqrt(2.0)));
+  // One cell on along y the view turns by 1 / sqrt(2) in longitude's direction; the blur adds in
+  // squares; the circle of longitude is sqrt(1/2) of the equator.
+  CHECK(colors.Ci[5].z == Approx(std::sqrt(0.5 + 0.2 * 0.2) / (2.0 * pi) * std::sqrt(2.0)));
   // At (0, 1, 1): a quarter turn on.
   CHECK(colors.Ci[7].x == Approx(0.25));
 }
