@@ -41,7 +41,7 @@ class ChunkMaker {
   // Whether a part cannot be seen or is not finite; finds the raster bounds of others.
   bool is_outside(const Patch& patch, const ParameterRect& rect, RasterBounds& bounds) {
     hull_.clear();
-    for (int key = 0; key < context_.rate.key_count; ++key) patch.append_hull(key, rect, hull_);
+    for (int key = 0; key < context_.rate.key_count(); ++key) patch.append_hull(key, rect, hull_);
     const bool finite = std::all_of(hull_.begin(), hull_.end(), [](const glm::vec3& p) {
       return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     });

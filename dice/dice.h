@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -28,8 +29,13 @@ class Displacer {
 
 struct DiceSettings {
   int max_grid_size = 32;           ///< micropolygons along u and v
-  float shading_rate_scale = 1.0f;  ///< multiplies the surfaces' own ShadingRate
-  PixelRect crop;                   ///< surfaces that cannot touch these pixels are never diced
+  float shading_rate_scale = 1.0f;  ///< multiplies the area of every micropolygon
+  /// Area of a micropolygon in pixels^2, in place of the surfaces' own: Attribute "dice" "rate" or,
+  /// without one, ShadingRate.
+  std::optional<float> dicing_rate;
+  /// GeometricApproximation of surfaces that say nothing and are not displaced (DiceRate).
+  float motion_factor = 0, focus_factor = 0;
+  PixelRect crop;        ///< surfaces that cannot touch these pixels are never diced
   int bucket_size = 32;  ///< pixels; bucket (i, j) starts at crop.x0 + i * bucket_size, ...
   size_t memory_budget_bytes = size_t(2)
                                << 30;  ///< for grids; over it, idle grids are dropped and re-diced
@@ -37,6 +43,10 @@ struct DiceSettings {
   /// Which primitive variables (besides P, N, st) a surface's shaders read; null: all.
   std::function<bool(const Attributes&, std::string_view name)> wants_primvar;
 };
+
+/// Area of a micropolygon of such a surface in pixels^2, without blur: Attribute "dice" "rate" or,
+/// without one, ShadingRate.
+float micropolygon_area(const Attributes& attributes);
 
 struct DiceCounters {
   uint64_t surfaces = 0, faces = 0, splits = 0, grids = 0, micropolygons = 0, vertices = 0;

@@ -1,7 +1,7 @@
 #include "dice/edge_span.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 
 namespace tessera {
 
@@ -9,20 +9,6 @@ const Patch* PatchCache::get(uint32_t index) {
   auto [entry, is_new] = cache_.try_emplace(index);
   if (is_new) entry->second = patches_.patch(index);
   return entry->second.get();
-}
-
-namespace {
-
-int ceiling(float x) { return int(std::ceil(std::clamp(x, 1.0f, 1e6f))); }
-
-}  // namespace
-
-int RowLength::most_segments(int pieces, float step) const {
-  return ceiling(float(pieces) * longest / step);
-}
-
-int RowLength::segments(int pieces, float step) const {
-  return ceiling(std::min(float(pieces) * longest, 2 * sum) / step);
 }
 
 Location EdgeSpan::location_of(int vertex) const {
@@ -37,36 +23,50 @@ int EdgeSpan::vertex_at(int i, int count) const {
   return reversed ? end - offset : begin + offset;
 }
 
-void measure(EdgeSpan& span, PatchCache& cache, const DiceRate& rate) {
+namespace {
+
+/// Segments of [t0, t1] of a curve, from its own samples at every key and nothing else.
+RowSegments segments_of(const EdgeSpan& span, const Patch& patch, const DiceRate& rate) {
   constexpr int most_pieces = 8;
   alignas(64) float t[16] = {}, u[16] = {}, v[16] = {}, x[16], y[16], z[16];
-  const Patch* patch = cache.get(span.curve.patch);
-  const int pieces = patch ? std::min(patch->sample_segments(), most_pieces) : 1;
-  const size_t count = size_t(pieces) + 1;
+  std::array<glm::vec3, most_pieces + 1> P;
+  RowSize size;
+  size.pieces = std::min(patch.sample_segments(), most_pieces);
+  const size_t count = size_t(size.pieces) + 1;
   for (size_t i = 0; i < count; ++i) {
-    const double at = span.t0 + (span.t1 - span.t0) * double(i) / pieces;
+    const double at = span.t0 + (span.t1 - span.t0) * double(i) / size.pieces;
     const glm::dvec2 uv = span.curve.parameters(at);
     t[i] = float(at), u[i] = float(uv.x), v[i] = float(uv.y);
   }
   const PatchOutput out{{x, y, z}, {}};
-  int segments = 1, most = 1;
-  for (int key = 0; patch && key < rate.key_count; ++key) {
+  LeastBlur blur;
+  for (int key = 0; key < rate.key_count(); ++key) {
     if (span.curve.is_side()) {
-      patch->side(key, int(span.curve.line), span.curve.flip, {t, count}, out);
+      patch.side(key, int(span.curve.line), span.curve.flip, {t, count}, out);
     } else {
-      patch->points(key, {u, count}, {v, count}, out);
+      patch.points(key, {u, count}, {v, count}, out);
     }
-    RowLength length;
-    for (size_t i = 0; i + 1 < count; ++i) {
-      length.add(
-          rate.projection->segment_length({x[i], y[i], z[i]}, {x[i + 1], y[i + 1], z[i + 1]}));
+    for (size_t i = 0; i < count; ++i) P[i] = {x[i], y[i], z[i]};
+    RowLength row;
+    for (size_t i = 1; i < count; ++i) {
+      row.add(rate.projection->segment_length(P[i - 1], P[i]));
     }
-    segments = std::max(segments, length.segments(pieces, rate.step));
-    most = std::max(most, length.most_segments(pieces, rate.step));
+    size.add(row);
+    if (!rate.follows_blur()) continue;
+    blur.add_key(*rate.projection, rate.key_times[size_t(key)], {P.data(), count});
+    for (size_t i = 2; i < count; ++i) size.add_bend(*rate.projection, P[i - 2], P[i - 1], P[i]);
   }
+  return segments_of(size, rate.step_under(blur));
+}
+
+}  // namespace
+
+void measure(EdgeSpan& span, PatchCache& cache, const DiceRate& rate) {
+  const Patch* patch = cache.get(span.curve.patch);
+  const RowSegments segments = patch ? segments_of(span, *patch, rate) : RowSegments{};
   const bool too_narrow = span.t1 - span.t0 <= DiceRate::min_width;
-  span.leaf = !span.forced && (most <= rate.max_grid_size || too_narrow);
-  span.segments = std::min(segments, rate.max_grid_size);
+  span.leaf = !span.forced && (segments.most <= rate.max_grid_size || too_narrow);
+  span.segments = std::min(segments.count, rate.max_grid_size);
   span.begin = 0;
   span.end = span.segments;
 }

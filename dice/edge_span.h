@@ -4,15 +4,15 @@
 /// Every curve between two patches, or between two pieces of a patch, is cut into vertices by a
 /// rule that looks at the curve alone, so that both sides of it agree without asking each other: a
 /// span longer than a grid is halved; a shorter one (a leaf) is cut evenly into as many segments as
-/// its raster length asks for. A grid has at least as many micropolygons along an edge as the part
-/// of the leaf that it touches, and moves its own boundary vertices onto the leaf's: several of
-/// them may come to lie on one.
+/// its raster length, and the least blur along it, ask for. A grid has at least as many
+/// micropolygons along an edge as the part of the leaf that it touches, and moves its own boundary
+/// vertices onto the leaf's: several of them may come to lie on one.
 
 #include <memory>
 #include <unordered_map>
 
+#include "dice/dice_rate.h"
 #include "dice/patch.h"
-#include "dice/projection.h"
 
 namespace tessera {
 
@@ -27,30 +27,6 @@ class PatchCache {
  private:
   const PatchSet& patches_;
   std::unordered_map<uint32_t, std::unique_ptr<Patch>> cache_;
-};
-
-/// What sizes are measured with.
-struct DiceRate {
-  const RasterProjection* projection = nullptr;
-  int key_count = 1;
-  float step = 1;          ///< pixels between vertices
-  int max_grid_size = 32;  ///< micropolygons along u and v
-  /// Pieces are not split below this parameter width, whatever their size.
-  static constexpr double min_width = 1.0 / 4096;
-};
-
-/// Size of a row of points.
-struct RowLength {
-  float sum = 0;      ///< pixels, polyline through the samples
-  float longest = 0;  ///< pixels, longest piece
-  void add(float length) {
-    sum += length;
-    longest = longest < length ? length : longest;
-  }
-  /// Micropolygons of `step` pixels where the parameter runs fastest.
-  int most_segments(int pieces, float step) const;
-  /// The same, but never more than twice what an even parameter would need.
-  int segments(int pieces, float step) const;
 };
 
 /// Part of a curve along one edge of a piece.

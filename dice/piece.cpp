@@ -16,34 +16,49 @@ ParameterRect Piece::vertex_rect() const {
 void measure(Piece& piece, PatchCache& cache, const DiceRate& rate) {
   constexpr int most_pieces = 8, stride = 16;
   alignas(64) float u[stride] = {}, v[stride] = {};
-  alignas(64) float P[3][(most_pieces + 1) * stride];
+  alignas(64) float x[3][(most_pieces + 1) * stride];
+  std::array<glm::vec3, LeastBlur::most_samples> P;
   const Patch* patch = cache.get(piece.patch);
-  const int pieces = std::min(patch->sample_segments(), most_pieces);
+  RowSize along_u, along_v;
+  const int pieces = along_u.pieces = along_v.pieces =
+      std::min(patch->sample_segments(), most_pieces);
   const ParameterRect& r = piece.rect;
   for (int i = 0; i <= pieces; ++i) {
     u[i] = float(r.u0 + (r.u1 - r.u0) * i / pieces);
     v[i] = float(r.v0 + (r.v1 - r.v0) * i / pieces);
   }
   const size_t count = size_t(pieces) + 1;
-  const auto at = [&](int i, int j) {
-    const int k = j * stride + i;
-    return glm::vec3(P[0][k], P[1][k], P[2][k]);
-  };
-  piece.u_count = piece.v_count = piece.u_most = piece.v_most = 1;
-  for (int key = 0; key < rate.key_count; ++key) {
-    patch->tensor(key, {u, count}, {v, count}, stride, PatchOutput{{P[0], P[1], P[2]}, {}});
-    for (int row = 0; row <= pieces; ++row) {
-      RowLength along_u, along_v;
-      for (int k = 0; k < pieces; ++k) {
-        along_u.add(rate.projection->segment_length(at(k, row), at(k + 1, row)));
-        along_v.add(rate.projection->segment_length(at(row, k), at(row, k + 1)));
+  const auto at = [&](int i, int j) -> glm::vec3& { return P[size_t(j) * count + size_t(i)]; };
+  LeastBlur blur;
+  for (int key = 0; key < rate.key_count(); ++key) {
+    patch->tensor(key, {u, count}, {v, count}, stride, PatchOutput{{x[0], x[1], x[2]}, {}});
+    for (int j = 0; j <= pieces; ++j) {
+      for (int i = 0; i <= pieces; ++i) {
+        const int k = j * stride + i;
+        at(i, j) = {x[0][k], x[1][k], x[2][k]};
       }
-      piece.u_count = std::max(piece.u_count, along_u.segments(pieces, rate.step));
-      piece.v_count = std::max(piece.v_count, along_v.segments(pieces, rate.step));
-      piece.u_most = std::max(piece.u_most, along_u.most_segments(pieces, rate.step));
-      piece.v_most = std::max(piece.v_most, along_v.most_segments(pieces, rate.step));
+    }
+    for (int row = 0; row <= pieces; ++row) {
+      RowLength length_u, length_v;
+      for (int k = 0; k < pieces; ++k) {
+        length_u.add(rate.projection->segment_length(at(k, row), at(k + 1, row)));
+        length_v.add(rate.projection->segment_length(at(row, k), at(row, k + 1)));
+      }
+      along_u.add(length_u);
+      along_v.add(length_v);
+      for (int k = 2; rate.follows_blur() && k <= pieces; ++k) {
+        along_u.add_bend(*rate.projection, at(k - 2, row), at(k - 1, row), at(k, row));
+        along_v.add_bend(*rate.projection, at(row, k - 2), at(row, k - 1), at(row, k));
+      }
+    }
+    if (rate.follows_blur()) {
+      blur.add_key(*rate.projection, rate.key_times[size_t(key)], {P.data(), count * count});
     }
   }
+  const DiceStep step = rate.step_under(blur);
+  const RowSegments in_u = segments_of(along_u, step), in_v = segments_of(along_v, step);
+  piece.u_count = in_u.count, piece.u_most = in_u.most;
+  piece.v_count = in_v.count, piece.v_most = in_v.most;
   // Never fewer than the vertices of an edge, or the grid could not touch all of them.
   for (int side = 0; side < 4; ++side) {
     int& n = side % 2 ? piece.v_count : piece.u_count;

@@ -31,10 +31,11 @@ class RasterProjection {
   const RasterClipMap& map() const { return map_; }
   /// Largest |u| or |v| on the lens; 0 for a pinhole.
   float lens_extent() const { return lens_extent_; }
+  float near_clip() const { return near_; }
 
  private:
-  /// The least W, at least `w` and the near plane, at which a point with this x and y could be in the
-  /// frame from some point of the lens.
+  /// The least W, at least `w` and the near plane, at which a point with this x and y could be in
+  /// the frame from some point of the lens.
   float visible_w(const glm::vec3& P_camera, float w) const;
 
   /// Adds one camera-space point through the whole lens; returns false (and adds nothing) when it

@@ -53,7 +53,38 @@ struct PatchSetMaker {
   }
 };
 
+DiceRate dice_rate(const Attributes& attributes, const MovingPoints& points, const Camera& camera,
+                   const RasterProjection& projection, const DiceSettings& settings) {
+  DiceRate rate;
+  rate.projection = &projection;
+  rate.key_times = points.times();
+  rate.max_grid_size = std::max(1, settings.max_grid_size);
+  // A rate of (nearly) zero would never end; a hundredth of a pixel a side is finer than any use.
+  const float area = settings.dicing_rate.value_or(micropolygon_area(attributes));
+  rate.step = std::sqrt(std::max(area * settings.shading_rate_scale, 1e-4f));
+  if (!std::isfinite(rate.step)) rate.step = 1;
+  // While the shutter is closed keys blur nothing.
+  const bool blurs =
+      points.key_count() > 1 && camera.settings().shutter_close > camera.settings().shutter_open;
+  // What displacement does to an outline is not to be seen in the surface that is measured here:
+  // only on demand.
+  const bool by_default = !attributes.displacement || !settings.displacer;
+  const auto factor = [&](const std::optional<float>& given, float usual) {
+    return given.value_or(by_default ? usual : 0.0f);
+  };
+  if (blurs) rate.motion_factor = factor(attributes.motion_factor, settings.motion_factor);
+  if (camera.lens_open())
+    rate.focus_factor = factor(attributes.focus_factor, settings.focus_factor);
+  return rate;
+}
+
 }  // namespace
+
+float micropolygon_area(const Attributes& attributes) {
+  const auto given = attributes.user.find("dice:rate");
+  const bool has_rate = given != attributes.user.end() && !given->second.numbers.empty();
+  return has_rate ? given->second.numbers.front() : attributes.shading_rate;
+}
 
 SurfaceContext make_surface_context(const Surface& surface, uint32_t index, const Camera& camera,
                                     const RasterProjection& projection,
@@ -71,13 +102,7 @@ SurfaceContext make_surface_context(const Surface& surface, uint32_t index, cons
   context.patches =
       std::visit(PatchSetMaker{surface, *context.points, topologies, context.displacer != nullptr},
                  surface.geometry->shape);
-  context.rate.projection = &projection;
-  context.rate.key_count = context.points->key_count();
-  context.rate.max_grid_size = std::max(1, settings.max_grid_size);
-  // A rate of (nearly) zero would never end; a hundredth of a pixel a side is finer than any use.
-  const float area = attributes.shading_rate * settings.shading_rate_scale;
-  context.rate.step = std::sqrt(std::max(area, 1e-4f));
-  if (!std::isfinite(context.rate.step)) context.rate.step = 1;
+  context.rate = dice_rate(attributes, *context.points, camera, projection, settings);
   context.wants_primvar = [&attributes, &settings](std::string_view name) {
     if (name == "P" || name == "N" || name == "st" || name == "s" || name == "t") return false;
     return !settings.wants_primvar || settings.wants_primvar(attributes, name);

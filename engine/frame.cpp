@@ -44,6 +44,7 @@ ShadingFrame shading_frame(const FramePlan& plan, std::shared_ptr<const ShaderBi
     return pixel_filter_band_limit(find_pixel_filter(plan.filter), plan.filter_x_width,
                                    plan.filter_y_width, energy_share);
   };
+  frame.dicing_ratio = plan.dicing_ratio;
   return frame;
 }
 
@@ -52,6 +53,9 @@ DiceSettings dice_settings(const FramePlan& plan, const BucketLayout& buckets,
                            std::shared_ptr<const ShaderBindings> bindings) {
   DiceSettings dice;
   dice.max_grid_size = plan.grid_size;
+  dice.dicing_rate = settings.dicing_rate;
+  dice.motion_factor = plan.motion_factor;
+  dice.focus_factor = plan.focus_factor;
   dice.crop = buckets.sampled;
   dice.bucket_size = buckets.size;
   dice.memory_budget_bytes = settings.memory_bytes;

@@ -45,8 +45,13 @@ std::vector<std::pair<std::string, std::string>> options_in_force(const Scene& s
       {"threads", std::to_string(threads)},
       {"seed", std::to_string(settings.seed)},
       {"memory_budget_bytes", std::to_string(settings.memory_bytes)}};
-  if (settings.shading_rate)
-    options.emplace_back("shading_rate", fmt::format("{}", *settings.shading_rate));
+  const auto add = [&options](const char* name, const std::optional<float>& value) {
+    if (value) options.emplace_back(name, fmt::format("{}", *value));
+  };
+  add("shading_rate", settings.shading_rate);
+  add("dicing_rate", settings.dicing_rate);
+  add("motion_factor", settings.motion_factor);
+  add("focus_factor", settings.focus_factor);
   if (settings.heatmap) options.emplace_back("heatmap", *settings.heatmap);
   return options;
 }

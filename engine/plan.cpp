@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "dice/dice.h"
 #include "hide/hide.h"
 #include "shade/shade.h"
 
@@ -91,6 +93,18 @@ void set_needs(FramePlan& plan, const Scene& scene, const CameraSettings& camera
   for (const Light& light : scene.lights) plan.area_lights = plan.area_lights || light.area;
 }
 
+/// Of the whole frame: the most over its surfaces, so that nobody takes micropolygons for smaller
+/// than they are.
+float dicing_ratio(const Scene& scene, const Settings& settings) {
+  float most = 0;
+  for (const Surface& surface : scene.surfaces) {
+    const Attributes& attributes = *surface.attributes;
+    const float area = settings.dicing_rate.value_or(micropolygon_area(attributes));
+    most = std::max(most, area / attributes.shading_rate);
+  }
+  return most > 0 && std::isfinite(most) ? most : 1.0f;
+}
+
 }  // namespace
 
 FramePlan make_plan(const Scene& scene, const CameraSettings& camera, const Settings& settings,
@@ -109,6 +123,7 @@ FramePlan make_plan(const Scene& scene, const CameraSettings& camera, const Sett
       1, max_bucket_size);
   plan.grid_size =
       checked("grid size", settings.grid_size.value_or(plan.grid_size), 1, max_grid_size);
+  plan.dicing_ratio = dicing_ratio(scene, settings);
   if (settings.hider) plan.hider = *settings.hider;
   plan.sample_tuples = make_hider(plan.hider)->sample_tuples(plan.samples_per_pixel);
   if (settings.shading) plan.shading = *settings.shading;
@@ -131,6 +146,9 @@ std::vector<std::pair<std::string, std::string>> FramePlan::entries() const {
           {"samples_per_pixel", std::to_string(samples_per_pixel)},
           {"bucket_size", std::to_string(bucket_size)},
           {"grid_size", std::to_string(grid_size)},
+          {"dicing_ratio", fmt::format("{}", dicing_ratio)},
+          {"motion_factor", fmt::format("{}", motion_factor)},
+          {"focus_factor", fmt::format("{}", focus_factor)},
           {"hider", hider},
           {"samples", to_string(sample_tuples)},
           {"shading", shading},

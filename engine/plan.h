@@ -27,6 +27,11 @@ struct FramePlan {
   int samples_per_pixel = 16;
   int bucket_size = 32;
   int grid_size = 32;
+  /// Area of a micropolygon over that of a shading cell, where it is largest.
+  float dicing_ratio = 1;
+  /// GeometricApproximation of surfaces that say nothing: the largest powers of two whose error
+  /// stays below half of the noise at 64 samples a pixel (docs/dicing.md, Blur).
+  float motion_factor = 2, focus_factor = 8;
   std::string hider = "auto", shading = "aas";
   std::string filter = "gaussian";
   float filter_x_width = 2, filter_y_width = 2;

@@ -14,6 +14,8 @@ namespace tessera {
 struct Settings {
   std::optional<int> samples_per_pixel;
   std::optional<float> shading_rate;  ///< pixels^2; replaces every surface's own
+  std::optional<float> dicing_rate;   ///< pixels^2; of micropolygons, whatever ShadingRate
+  std::optional<float> motion_factor, focus_factor;  ///< replace GeometricApproximation's
   std::optional<CameraSettings::CropWindow> crop;
   std::optional<int> x_resolution, y_resolution;
   std::optional<std::string> hider;    ///< "name" or "name:arguments"

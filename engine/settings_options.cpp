@@ -60,6 +60,37 @@ std::vector<std::string> split_list(std::string_view text) {
   return items;
 }
 
+/// As CLI::Range, which lets what is not a number pass.
+CLI::Validator number_between(float low, float high) {
+  return CLI::Validator(
+      [low, high](std::string& text) -> std::string {
+        float value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return "";
+        return fmt::format("'{}': expected a number from {} to {}", text, low, high);
+      },
+      fmt::format("[{} - {}]", low, high));
+}
+
+void add_rate_options(CLI::App& app, Settings& settings) {
+  const auto add = [&app](const char* option, std::optional<float>& setting, const char* help,
+                          const CLI::Validator& valid, const char* value) {
+    app.add_option(option, setting, help)->check(valid)->type_name(value);
+  };
+  const CLI::Validator area = number_between(1e-4f, 1e6f), factor = number_between(0, 1e6f);
+  add("--shading-rate", settings.shading_rate,
+      "area of a shading cell in pixels^2, for every surface", area, "R");
+  add("--dicing-rate", settings.dicing_rate,
+      "area of a micropolygon in pixels^2, for every surface (its ShadingRate); in the shading "
+      "mode "
+      "reyes, which shades the vertices, that of a shading cell, too",
+      area, "R");
+  add("--motion-factor", settings.motion_factor,
+      "how fast micropolygons grow with motion blur beyond 16 pixels / M, 0: never", factor, "M");
+  add("--focus-factor", settings.focus_factor,
+      "how fast micropolygons grow with circles of confusion beyond 16 pixels / F, 0: never",
+      factor, "F");
+}
+
 void add_raster_options(CLI::App& app, Settings& settings) {
   app.add_option_function<std::string>(
          "--format",
@@ -124,10 +155,7 @@ void add_settings_options(CLI::App& app, Settings& settings) {
   app.add_option("--spp", settings.samples_per_pixel, "samples per pixel")
       ->check(CLI::Range(1, max_samples_per_pixel))
       ->type_name("N");
-  app.add_option("--shading-rate", settings.shading_rate,
-                 "area of a micropolygon in pixels^2, for every surface")
-      ->check(CLI::Range(1e-4f, 1e6f))
-      ->type_name("R");
+  add_rate_options(app, settings);
   add_raster_options(app, settings);
   add_choice_options(app, settings);
   app.add_option("--heatmap", settings.heatmap,

@@ -83,6 +83,7 @@ class ApplyAttribute {
     if (!condition) throw Error(context_.where, message);
   }
   void displacement_bound(const attribute_call::User& call) const;
+  void check_dicing_rate(const Parameter& rate) const;
 
   AttributeState& state_;
   Attributes& values_;
@@ -160,6 +161,12 @@ void ApplyAttribute::displacement_bound(const attribute_call::User& call) const 
   state_.touch(AttributeState::field_bound);
 }
 
+void ApplyAttribute::check_dicing_rate(const Parameter& rate) const {
+  expect(rate.numbers.size() == 1, "\"dice\" \"rate\": expected one number of pixels^2");
+  expect(rate.numbers[0] > 0,
+         fmt::format("expected a positive dicing rate, found {}", rate.numbers[0]));
+}
+
 void ApplyAttribute::operator()(const attribute_call::User& call) const {
   if (call.category == "displacementbound") return displacement_bound(call);
   for (const Parameter& parameter : call.parameters) {
@@ -167,6 +174,7 @@ void ApplyAttribute::operator()(const attribute_call::User& call) const {
       values_.name = parameter.strings.front();
       state_.touch(AttributeState::field_name);
     } else {
+      if (call.category == "dice" && parameter.name == "rate") check_dicing_rate(parameter);
       values_.user[call.category + ":" + parameter.name] = parameter;
       state_.touch(AttributeState::field_user);
     }

@@ -32,14 +32,14 @@ struct Attributes {
   std::vector<int> lights;
   /// Index into Scene::lights of the area light this surface is part of, if any.
   std::optional<int> area_light;
-  float shading_rate = 1.0f;   ///< area of a micropolygon, pixels^2
+  float shading_rate = 1.0f;   ///< area of a shading cell, pixels^2
   bool smooth_shading = true;  ///< ShadingInterpolation "smooth"; otherwise constant
   bool two_sided = true;       ///< Sides 2
   bool matte = false;
   std::array<glm::vec2, 4> texture_coordinates{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
   std::string name;                 ///< Attribute "identifier" "name"
   float displacement_bound = 0.0f;  ///< largest distance a point may move, world units
-  float motion_factor = 0.0f, focus_factor = 0.0f;  ///< GeometricApproximation
+  std::optional<float> motion_factor, focus_factor;  ///< GeometricApproximation, if given
   /// Attribute requests nobody interpreted, as "category:name" -> parameter.
   std::map<std::string, Parameter> user;
 };

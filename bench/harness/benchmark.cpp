@@ -35,6 +35,20 @@ void BenchmarkContext::add_row(const std::string& case_name, Columns columns) {
   rows_.push_back({case_name, std::move(columns)});
 }
 
+std::string usage_of(const BenchmarkDefinition& benchmark) {
+  std::string usage = benchmark.name;
+  for (const std::string& argument : benchmark.arguments) usage += fmt::format(" [{}]", argument);
+  return usage;
+}
+
+void check_arguments(const BenchmarkDefinition& benchmark,
+                     const std::vector<std::string>& arguments) {
+  if (arguments.size() <= benchmark.arguments.size()) return;
+  throw Error(fmt::format("unexpected argument '{}': expected {}{}",
+                          arguments[benchmark.arguments.size()], usage_of(benchmark),
+                          benchmark.arguments.empty() ? ", which takes no arguments" : ""));
+}
+
 double median(std::vector<double> values) {
   if (values.empty()) throw Error("median of no values");
   std::sort(values.begin(), values.end());

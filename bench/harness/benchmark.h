@@ -26,9 +26,12 @@ class BenchmarkContext {
   using Columns = std::vector<std::pair<std::string, double>>;
 
   /// `is_quick`: less work, same rows; the whole benchmark within 50 s on two cores.
-  explicit BenchmarkContext(bool is_quick) : quick(is_quick) {}
+  explicit BenchmarkContext(bool is_quick, std::vector<std::string> given_arguments = {})
+      : quick(is_quick), arguments(std::move(given_arguments)) {}
 
   const bool quick;
+  /// In the order of BenchmarkDefinition::arguments; as many as were given.
+  const std::vector<std::string> arguments;
 
   /// `many` or, in a quick run, `few`: for sizes and repeat counts.
   int scaled(int many, int few) const { return quick ? few : many; }
@@ -46,7 +49,16 @@ struct BenchmarkDefinition {
   std::string name;  ///< the STEM of its file
   std::string help;  ///< one line: what is measured against what
   std::function<void(BenchmarkContext&)> run;
+  /// Names of the arguments that may follow the benchmark's own name, all of them optional.
+  std::vector<std::string> arguments{};
 };
+
+/// `name` for people, with the arguments that the benchmark takes: "dicing [SCENE.rib]".
+std::string usage_of(const BenchmarkDefinition& benchmark);
+
+/// Throws Error when there are more than the benchmark takes.
+void check_arguments(const BenchmarkDefinition& benchmark,
+                     const std::vector<std::string>& arguments);
 
 /// Every benchmark, by name. Generated from the files of bench/.
 std::span<const BenchmarkDefinition> benchmark_registry();

@@ -104,7 +104,7 @@ std::vector<StandardParameters> standard_parameters() {
       {"uniform point", {"from", "to"}},
       {"uniform string", {"texturename", "shadowname"}},
       // Options, attributes, displays.
-      {"uniform float", {"fov", "sphere", "lensrotation"}},
+      {"uniform float", {"fov", "sphere", "lensrotation", "rate"}},
       {"uniform integer",
        {"bucketsize", "gridsize", "texturememory", "eyesplits", "endofframe", "jitter",
         "lensblades", "merge", "truedisplacement", "trace", "binary"}},

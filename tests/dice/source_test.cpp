@@ -67,6 +67,28 @@ TEST_CASE("micropolygons have the area ShadingRate asks for", "[dice][rate]") {
   }
 }
 
+TEST_CASE("a dicing rate goes before ShadingRate, and the frame's before a surface's",
+          "[dice][rate]") {
+  const auto micropolygons = [](float shading_rate, std::optional<float> surface_rate,
+                                std::optional<float> frame_rate) {
+    DiceScene s(200, 200);
+    Attributes attributes;
+    attributes.shading_rate = shading_rate;
+    if (surface_rate) attributes.user["dice:rate"].numbers = {*surface_rate};
+    s.settings.dicing_rate = frame_rate;
+    s.add(geometry(cube_cage(), cube_points()), away, attributes);
+    DiceCounters counters;
+    s.all_grids(&counters);
+    return counters.micropolygons;
+  };
+  const uint64_t of_4 = micropolygons(4, {}, {}), of_1 = micropolygons(1, {}, {});
+  CHECK(double(of_1) > 3 * double(of_4));
+  CHECK(micropolygons(1, 4.0f, {}) == of_4);
+  CHECK(micropolygons(4, 1.0f, {}) == of_1);
+  CHECK(micropolygons(1, {}, 4.0f) == of_4);
+  CHECK(micropolygons(1, 1.0f, 4.0f) == of_4);
+}
+
 TEST_CASE("raster bounds hold every point through every part of the lens and shutter",
           "[dice][bounds]") {
   for (const bool perspective : {true, false}) {

@@ -88,6 +88,32 @@ glm::dmat4 placement(int variant) {
 constexpr int variants = 4;
 constexpr float rates[variants] = {1.0f, 0.6f, 5.0f, 2.3f};
 
+// Moves and turns every surface, opens the lens, and lets micropolygons grow with both kinds of
+// blur: with one sharp end or none.
+void blur(DiceScene& s, int variant) {
+  const glm::dmat4 there =
+      glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(0.6, 0.1 * variant, 0.4)), 0.05,
+                  glm::dvec3(0, 1, 1));
+  for (Surface& surface : s.scene.surfaces) {
+    const glm::dmat4 here = surface.world_from_object.at(0);
+    const glm::dmat4 between = glm::translate(glm::dmat4(1), glm::dvec3(0.2, 0, 0.1)) * here;
+    surface.world_from_object = MovingTransform({0.0f, 0.4f, 1.0f}, {here, between, there * here});
+    auto attributes = std::make_shared<Attributes>(*surface.attributes);
+    attributes->motion_factor = variant % 2 ? 3.0f : 50.0f;
+    attributes->focus_factor = variant < 2 ? 2.0f : 100.0f;
+    surface.attributes = std::move(attributes);
+  }
+  s.scene.camera.shutter_open = 0;
+  s.scene.camera.shutter_close = 1;
+  s.scene.camera.lens = CameraSettings::ThinLens{1.4, 0.7, variant % 2 ? 8.5 : 20.0};
+}
+
+uint64_t micropolygon_count(DiceScene& s) {
+  DiceCounters counters;
+  s.all_grids(&counters);
+  return counters.micropolygons;
+}
+
 void require_closed_everywhere(const Geometry& g) {
   for (int variant = 0; variant < variants; ++variant) {
     INFO("variant " << variant);
@@ -97,7 +123,26 @@ void require_closed_everywhere(const Geometry& g) {
     s.add(g, placement(variant), attributes);
     s.settings.max_grid_size = variant == 1 ? 7 : 32;
     require_closed(s);
+    blur(s, variant);
+    require_closed(s);
   }
+}
+
+TEST_CASE("the blurred surfaces of these tests are diced coarser", "[dice][watertight]") {
+  uint64_t coarse = 0, full = 0;
+  for (int variant = 0; variant < variants; ++variant) {
+    DiceScene s(200, 200);
+    s.add(geometry(torus_cage(7, 5), torus_points(7, 5)), placement(variant));
+    blur(s, variant);
+    coarse += micropolygon_count(s);
+    for (Surface& surface : s.scene.surfaces) {
+      auto attributes = std::make_shared<Attributes>(*surface.attributes);
+      attributes->motion_factor = attributes->focus_factor = 0.0f;
+      surface.attributes = std::move(attributes);
+    }
+    full += micropolygon_count(s);
+  }
+  CHECK(double(coarse) < 0.7 * double(full));
 }
 
 TEST_CASE("subdivision cube is watertight", "[dice][watertight]") {
@@ -195,6 +240,8 @@ TEST_CASE("a sphere in octants of separate patches is watertight", "[dice][water
       s.add(geometry(bicubic_mesh(), points), placement(variant), attributes);
     }
     require_closed(s);
+    blur(s, variant);
+    require_closed(s);
   }
 }
 
@@ -281,6 +328,8 @@ TEST_CASE("displaced closed surfaces are watertight", "[dice][watertight][displa
       attributes.shading_rate = rates[variant];
       s.settings.displacer = &bumps;
       s.add(shapes[shape], placement(variant), attributes);
+      require_closed(s);
+      blur(s, variant);
       require_closed(s);
     }
   }

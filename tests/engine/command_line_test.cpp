@@ -119,6 +119,13 @@ TEST_CASE("what is wrong with a command line is said, with exit code 2") {
       {{"render", "s.rib", "--format", "640"}, "WIDTHxHEIGHT"},
       {{"render", "s.rib", "--format", "0x10"}, "WIDTHxHEIGHT"},
       {{"render", "s.rib", "--threads", "-1"}, "--threads"},
+      {{"render", "s.rib", "--shading-rate", "nan"}, "--shading-rate"},
+      {{"render", "s.rib", "--dicing-rate", "0"}, "--dicing-rate"},
+      {{"render", "s.rib", "--dicing-rate", "-1"}, "--dicing-rate"},
+      {{"render", "s.rib", "--dicing-rate", "nan"}, "'nan': expected a number from"},
+      {{"render", "s.rib", "--dicing-rate", "fine"}, "--dicing-rate"},
+      {{"render", "s.rib", "--motion-factor", "-1"}, "--motion-factor"},
+      {{"render", "s.rib", "--focus-factor", "nan"}, "--focus-factor"},
       {{"render", "s.rib", "--memory", "0"}, "--memory"},
       {{"render", "s.rib", "--frames", "3-1"}, "A <= B"},
       {{"render", "s.####.rib", "-o", "x.exr"}, "--frames"},
@@ -139,11 +146,12 @@ TEST_CASE("help names every choice") {
   const TemporaryFolder folder;
   const ProgramResult result = run_tessera({"render", "--help"}, folder);
   CHECK(result.exit_code == 0);
-  for (const char* word :
-       {"--spp",           "--shading-rate", "--crop",    "--threads",  "--hider",
-        "--shading",       "--seed",         "--memory",  "--stats",    "--verbose",
-        "--skip-existing", "bbox",           "auto",      "shear",      "reyes",
-        "gaussian",        "motion",         "--heatmap", "interleave", "accumulate"}) {
+  for (const char* word : {"--spp",         "--shading-rate",  "--crop",          "--threads",
+                           "--hider",       "--shading",       "--seed",          "--memory",
+                           "--stats",       "--verbose",       "--skip-existing", "bbox",
+                           "auto",          "shear",           "reyes",           "gaussian",
+                           "motion",        "--heatmap",       "interleave",      "accumulate",
+                           "--dicing-rate", "--motion-factor", "--focus-factor"}) {
     CHECK_THAT(result.out, Contains(word));
   }
 }
@@ -153,6 +161,9 @@ TEST_CASE("a bad scene names its line, fails and leaves no file") {
   folder.write("bad.rib", "Format 32 24 1\nWorldBegin\nSphere 1 -1 \"x\" 360\nWorldEnd\n");
   folder.write("cut.rib", "WorldBegin\nSphere 1 -1 1 360\n");
   folder.write("none.rib", "Format 32 24 1\n");
+  folder.write("rate.rib", "Format 32 24 1\nShadingRate -1\n" + sphere_world());
+  folder.write("dice.rib", "WorldBegin\nAttribute \"dice\" \"rate\" [-1]\nWorldEnd\n");
+  folder.write("blur.rib", "GeometricApproximation \"focusfactor\" -1\n" + sphere_world());
   folder.write("noise.rib", std::string("\x00\xff\x13garbage\x80", 11));
   const auto failing = [&](const std::string& scene) {
     const ProgramResult result =
@@ -164,11 +175,15 @@ TEST_CASE("a bad scene names its line, fails and leaves no file") {
     return result.err;
   };
   CHECK_THAT(failing("bad.rib"), Contains("bad.rib:3: "));
+  CHECK_THAT(failing("rate.rib"), Contains("rate.rib:2: ") && Contains("-1"));
+  CHECK_THAT(failing("dice.rib"), Contains("dice.rib:2: ") && Contains("-1"));
+  CHECK_THAT(failing("blur.rib"), Contains("blur.rib:1: ") && Contains("-1"));
   failing("cut.rib");
   CHECK_THAT(failing("none.rib"), Contains("WorldBegin"));
   failing("noise.rib");
   failing("absent.rib");
-  CHECK(folder.files() == std::vector<std::string>{"bad.rib", "cut.rib", "noise.rib", "none.rib"});
+  CHECK(folder.files() == std::vector<std::string>{"bad.rib", "blur.rib", "cut.rib", "dice.rib",
+                                                   "noise.rib", "none.rib", "rate.rib"});
 }
 
 TEST_CASE("an output that cannot be written is refused before rendering") {

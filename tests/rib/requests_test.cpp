@@ -147,7 +147,7 @@ TEST_CASE("attributes") {
     Matte 1  TextureCoordinates [1 2 3 4 5 6 7 8]
     GeometricApproximation "motionfactor" 1.5  GeometricApproximation "focusfactor" .5
     GeometricApproximation "flatness" 1
-    Attribute "identifier" "name" ["ball"]  Attribute "mine" "constant float x" 3
+    Attribute "identifier" "name" ["ball"]  Attribute "mine" "constant float x" 3  Attribute "dice" "rate" 2.5
     Surface "plastic" "Kd" .7 "uniform color tint" [1 0 1] "wide" [1 2 3 4 5 6]
     Translate 1 2 3
     Displacement "bumps" "string file" "a.tex")" +
@@ -165,6 +165,7 @@ TEST_CASE("attributes") {
   CHECK(a.focus_factor == .5f);
   CHECK(a.name == "ball");
   CHECK(a.user.at("mine:x").numbers.at(0) == 3);
+  CHECK(a.user.at("dice:rate").numbers == std::vector<float>{2.5f});
   REQUIRE(a.surface);
   CHECK(a.surface->name == "plastic");
   CHECK(a.surface->where.line == 9);
