@@ -26,8 +26,8 @@ struct ShadingLattice {
 /// Where a lattice begins.
 enum class LatticeAnchor {
   raster,  ///< cells lie the same way in every grid: those of `extents` from raster (0, 0) on
-  grid     ///< a whole number of cells, none larger than `extents` ask for, spans the grid: fewer
-           ///< cells are cut by its rim
+  grid  ///< a whole number of cells, none larger than `extents` ask for, spans the grid, along it
+        ///< if they are square: its rim cuts fewer of them
 };
 
 }  // namespace tessera

@@ -57,10 +57,26 @@ bool ShadingSpace::place_vertices(const Camera& camera, const ShadingSpaceSettin
   return true;
 }
 
+/// Raster direction from the first to the last column of vertices.
+glm::dvec2 ShadingSpace::mean_u_direction() const {
+  glm::dvec2 sum(0);
+  for (int j = 0; j <= grid_.v_count; ++j) {
+    const size_t first = size_t(j * (grid_.u_count + 1)), last = first + size_t(grid_.u_count);
+    sum +=
+        glm::dvec2(vertices_.x[last] - vertices_.x[first], vertices_.y[last] - vertices_.y[first]);
+  }
+  const double length = glm::length(sum);
+  return length > 0 ? sum / length : glm::dvec2(1, 0);
+}
+
 bool ShadingSpace::fit_lattice(const ShadingSpaceSettings& settings) {
   const ShadingExtents& e = settings.extents;
-  lattice_.x_axis = glm::dvec2(e.direction) * double(e.d_mu);
-  lattice_.y_axis = glm::dvec2(-e.direction.y, e.direction.x) * double(e.d_perp);
+  const bool to_grid = settings.anchor == LatticeAnchor::grid;
+  // Square cells may lie any way: along the grid its rim cuts fewest.
+  const glm::dvec2 along =
+      to_grid && e.d_mu == e.d_perp ? mean_u_direction() : glm::dvec2(e.direction);
+  lattice_.x_axis = along * double(e.d_mu);
+  lattice_.y_axis = glm::dvec2(-along.y, along.x) * double(e.d_perp);
   Range x, y;
   for (size_t i = 0; i < size_t(grid_.vertex_count()); ++i) {
     const glm::dvec2 at = lattice_.from_raster({vertices_.x[i], vertices_.y[i]});
@@ -69,16 +85,17 @@ bool ShadingSpace::fit_lattice(const ShadingSpaceSettings& settings) {
   const auto fit = [&](const Range& range, glm::dvec2& axis, double& offset, int& cells) {
     const double length = range.high - range.low;
     if (!(length < ShadingCell::most - 4)) return false;
-    if (settings.anchor == LatticeAnchor::raster) {
+    if (to_grid) {
+      constexpr double rounding = 1e-4;
+      cells = std::max(1, int(std::ceil(length - rounding)));
+      const double stretch = std::clamp(cells / length, 1.0, 1e6);
+      axis *= stretch;
+      offset = (cells - stretch * (range.low + range.high)) / 2;
+    } else {
       // Even, so that blocks of 2 x 2 cells lie the same way in every grid too.
       offset = -2 * std::floor(range.low / 2);
       cells = int(std::floor(range.high + offset)) + 1;
-      return true;
     }
-    cells = std::max(1, int(std::ceil(length - 1e-4)));
-    const double stretch = length > 0 ? std::max(1.0, cells / length) : 1.0;
-    if (length > 0 && stretch < 1e6) axis *= stretch;
-    offset = (cells - (range.low + range.high) * (length > 0 && stretch < 1e6 ? stretch : 1)) / 2;
     return true;
   };
   return fit(x, lattice_.x_axis, lattice_.offset.x, x_cells_) &&

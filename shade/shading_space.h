@@ -57,6 +57,7 @@ class ShadingSpace {
  private:
   bool place_vertices(const Camera& camera, const ShadingSpaceSettings& settings);
   bool fit_lattice(const ShadingSpaceSettings& settings);
+  glm::dvec2 mean_u_direction() const;
   void place_parameters(int cells_per_edge);
 
   const Grid& grid_;

@@ -11,7 +11,7 @@ namespace {
 /// Shares of energy that the cells must be able to carry: of the lens's, the shutter's and the
 /// pixel filter's spectrum. docs/shading.md has the measurements that they come from.
 struct Shares {
-  double lens = 0.95, shutter = 0.95, filter = 0.95;
+  double lens = 0.98, shutter = 0.98, filter = 0.98;
 };
 
 Shares read_shares(std::string_view arguments) {
@@ -56,9 +56,13 @@ ShadingModeDefinition shading_mode_aas() {
               const BlurBounds blur =
                   blur_bounds(grid, frame.bindings->camera(), frame.motion, frame.lens);
               ShadingExtents extents = shading_extents(blur, limits);
+              // Cells as fine as pixels do best where pixels are: a pixel then sees one of them,
+              // not parts of four.
+              const bool sharp = extents.d_mu >= float(2 * limits.pixel);
               const float per_pixel = 1.0f / std::sqrt(grid.attributes().shading_rate);
               extents.d_mu *= per_pixel, extents.d_perp *= per_pixel;
-              return ShadingSpaceSettings{extents, LatticeAnchor::grid, per_edge};
+              return ShadingSpaceSettings{
+                  extents, sharp ? LatticeAnchor::raster : LatticeAnchor::grid, per_edge};
             });
           }};
 }
