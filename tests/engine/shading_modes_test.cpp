@@ -241,6 +241,46 @@ TEST_CASE("cells of a still frame are squares of the raster, each of one colour"
   CHECK(alike == 0);
 }
 
+TEST_CASE("cells of a moving frame lie still, those of what is seen at shutter open on top") {
+  const std::string camera =
+      "Format 48 40 1\n"
+      "PixelSamples 4 4\n"
+      "Shutter 0 1\n"
+      "Projection \"orthographic\"\n"
+      "ShadingRate 9\n"
+      "WorldBegin\n"
+      "Surface \"constant\"\n"
+      "Polygon \"P\" [-1.2 -1 5  1.2 -1 5  1.2 1 5  -1.2 1 5]\n";
+  // Moves to the right by 30 pixels from x = 4 ... 12.
+  const std::string moving =
+      "MotionBegin [0 1]\nTranslate 0 0 0\nTranslate 1.5 0 0\nMotionEnd\n"
+      "Polygon \"P\" [-1 -1 1  -0.6 -1 1  -0.6 1 1  -1 1 1]\n";
+  for (const char* mode : {"ds", "aas"}) {
+    Settings settings = settings_of(mode);
+    settings.aovs = {"cell"};
+    const Image back = render_text(camera + "WorldEnd\n", settings),
+                both = render_text(camera + moving + "WorldEnd\n", settings);
+    const auto colour = [](const Image& image, int x, int y) {
+      return std::array{channel_at(image, "cell.R", x, y), channel_at(image, "cell.G", x, y),
+                        channel_at(image, "cell.B", x, y)};
+    };
+    // One of 16 samples is taken within 1/16 of the shutter, 2 pixels of the way.
+    size_t wrong_back = 0, front_over_back = 0, scattered = 0;
+    for (int y = 0; y < 39; ++y) {
+      for (int x = 15; x < 48; ++x) wrong_back += colour(both, x, y) != colour(back, x, y);
+      for (int x = 6; x < 11; ++x) {
+        front_over_back += colour(both, x, y) == colour(back, x, y);
+        if (std::string_view(mode) == "ds")
+          scattered += colour(both, x, y) != colour(both, x / 3 * 3, y / 3 * 3);
+      }
+    }
+    INFO(mode);
+    CHECK(wrong_back == 0);
+    CHECK(front_over_back == 0);
+    CHECK(scattered == 0);
+  }
+}
+
 TEST_CASE("bad shading modes and rates are refused on the command line, with what is expected") {
   const TemporaryFolder folder;
   folder.write("s.rib", sphere_scene());

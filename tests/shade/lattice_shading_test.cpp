@@ -229,12 +229,14 @@ TEST_CASE("aas shades no more than ds, and as much where the blur promises nothi
 
 TEST_CASE("defocus widens cells in both directions") {
   ModeScene test;
-  test.scene.camera.lens = CameraSettings::ThinLens{0.02, 0.4, 1};
+  test.scene.camera.lens = CameraSettings::ThinLens{0.8, 0.4, 1};
   const Surface& surface = test.add_surface("constant");
   const ShadingFrame frame{test.bind(), false, true};
   const double coc = std::abs(double(test.camera->coc_raster(3.0f).x));
   const double d = 2 * test.camera->lens_profile().band_limit(0.95) / coc;
+  INFO(d);
   REQUIRE(d < 0.5);
+  REQUIRE(d > 0.2);
   const auto grid = test.colored_square(surface, 16);
   const Run aas = run(*make_shading("aas", frame), bucket_of(grid, inner_points(*grid, 12)));
   const double side = std::ceil(raster_side * d);
