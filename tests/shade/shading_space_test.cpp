@@ -244,3 +244,14 @@ TEST_CASE("one large micropolygon, and a grid many times the frame") {
     CHECK(covered > 100);
   }
 }
+
+TEST_CASE("keys tell all cells of the largest grids apart") {
+  // 256 x 256 micropolygons that all turn otherwise than their neighbours are as many sheets as
+  // triangles; coordinates stay below ShadingCell::most, and may be one over by rounding.
+  std::set<uint64_t> keys;
+  for (const uint32_t chart : {0u, 1u, 255u, 256u, 2u * 256 * 256 - 1})
+    for (const int x : {0, 1, 255, ShadingCell::most - 1, ShadingCell::most})
+      for (const int y : {0, 1, 255, ShadingCell::most - 1, ShadingCell::most})
+        keys.insert(ShadingCell{chart, x, y}.key());
+  CHECK(keys.size() == 5 * 5 * 5);
+}
