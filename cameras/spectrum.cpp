@@ -32,8 +32,9 @@ double energy_within(double f, std::span<const double> overlap, double reach) {
 }  // namespace
 
 void check_energy_share(double energy_share) {
-  if (!(energy_share > 0.0 && energy_share <= 0.9999))
-    throw Error(fmt::format("band limit: energy share {} is outside (0, 0.9999]", energy_share));
+  if (!(energy_share > 0.0 && energy_share <= most_energy_share))
+    throw Error(fmt::format("band limit: energy share {} is outside (0, {}]", energy_share,
+                            most_energy_share));
 }
 
 double frequency_holding(double energy_share, double total_energy,

@@ -22,7 +22,10 @@ double frequency_holding(double energy_share, double total_energy,
 /// with frequency, where the autocorrelation is smooth. Throws Error as frequency_holding() does.
 double radius_holding(double energy_share, std::span<const double> overlap, double reach);
 
-/// Throws Error unless `energy_share` is in (0, 0.9999].
+/// No band limit holds more: see frequency_holding().
+inline constexpr double most_energy_share = 0.9999;
+
+/// Throws Error unless `energy_share` is in (0, most_energy_share].
 void check_energy_share(double energy_share);
 
 }  // namespace tessera

@@ -15,8 +15,9 @@ namespace {
 constexpr HeatmapDefinition definitions[] = {
     {"tests", "samples tested against micropolygons in each pixel", "tests per pixel",
      &HideInput::tests_per_pixel, nullptr},
-    {"shading", "points shaded in each pixel, where they lie at shutter open", "points per pixel",
-     nullptr, &ShadeInput::shaded_at},
+    {"shading",
+     "points shaded in each pixel: where they lie at shutter open, or (pixel, sample) are seen",
+     "points per pixel", nullptr, &ShadeInput::shaded_at},
 };
 
 /// Control points of the ramp, evenly spaced; CIE L* 0, 16, 32, 51, 69, 84, 98.

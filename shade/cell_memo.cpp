@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/error.h"
 #include "shade/cell_name.h"
 
 namespace tessera {
@@ -37,15 +36,15 @@ void CellMemo::read(std::span<const uint32_t> slots, std::span<float> values) {
   std::unique_lock lock(mutex_);
   for (size_t k = 0; k < slots.size(); ++k) {
     published_.wait(lock, [&] { return shaded_[slots[k]] || given_up_; });
-    if (!shaded_[slots[k]]) throw Error("shading was given up by another thread");
+    if (!shaded_[slots[k]]) std::rethrow_exception(given_up_);
     std::copy_n(&values_[slots[k] * stride_], stride_, &values[k * stride_]);
   }
 }
 
-void CellMemo::give_up() {
+void CellMemo::give_up(std::exception_ptr reason) {
   {
     const std::scoped_lock lock(mutex_);
-    given_up_ = true;
+    if (!given_up_) given_up_ = std::move(reason);
   }
   published_.notify_all();
 }

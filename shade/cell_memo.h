@@ -3,6 +3,7 @@
 /// shades it; what it is worth is a property of the grid, so it does not matter who that was.
 
 #include <condition_variable>
+#include <exception>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -28,11 +29,11 @@ class CellMemo : public GridAttachment {
   /// `values` of the cells of `slots`, [slot][float], `places` telling which of the slots are new.
   void publish(std::span<const uint32_t> slots, std::span<const uint32_t> places,
                std::span<const float> values);
-  /// Copies the values of `slots`, waiting for those that others are shading. Throws Error if one
-  /// of them has given up.
+  /// Copies the values of `slots`, waiting for those that others are shading. Throws what they gave
+  /// up for if they did.
   void read(std::span<const uint32_t> slots, std::span<float> values);
-  /// Says that claimed cells will never be published.
-  void give_up();
+  /// Says that claimed cells will never be published, because of `reason`.
+  void give_up(std::exception_ptr reason);
 
  private:
   std::mutex mutex_;
@@ -41,7 +42,7 @@ class CellMemo : public GridAttachment {
   std::vector<bool> shaded_;   ///< [slot]
   std::vector<float> values_;  ///< [slot][float]
   size_t stride_;
-  bool given_up_ = false;
+  std::exception_ptr given_up_;
 };
 
 }  // namespace tessera

@@ -37,6 +37,7 @@ CompositedSample composite_sample(const ShadeInput& input, const ShadedFragments
       sum.opacity += through * opacity;
     }
     through *= 1.0f - opacity;
+    if (through == glm::vec3(0.0f)) break;  // a failed fragment that nobody sees spoils nothing
   }
   return sum;
 }

@@ -22,21 +22,6 @@ struct GridCells {
   std::vector<uint32_t> mine;    ///< those that this bucket shades
 };
 
-/// Lets others know if shading ends by an exception, or they would wait for ever.
-class GiveUp {
- public:
-  explicit GiveUp(std::vector<GridCells>& grids) : grids_(&grids) {}
-  ~GiveUp() {
-    if (!grids_) return;
-    for (GridCells& grid : *grids_)
-      if (grid.memo) grid.memo->give_up();
-  }
-  void done() { grids_ = nullptr; }
-
- private:
-  std::vector<GridCells>* grids_;
-};
-
 }  // namespace
 
 int cells_per_edge(const ShadingFrame& frame) {
@@ -120,11 +105,17 @@ void LatticeShading::shade_claimed(const ShadeInput& input, BucketCells& bucket,
 
 void LatticeShading::shade(const ShadeInput& input, ShadedFragments& out, ShadeCounters& counters) {
   BucketCells bucket = cells_of(input, counters);
-  GiveUp give_up(bucket.grids);
-  for (GridCells& grid : bucket.grids)
-    if (grid.memo) grid.memo->claim(grid.keys, grid.slots, grid.mine);
-  shade_claimed(input, bucket, counters);
-  give_up.done();
+  try {
+    for (GridCells& grid : bucket.grids)
+      if (grid.memo) grid.memo->claim(grid.keys, grid.slots, grid.mine);
+    shade_claimed(input, bucket, counters);
+  } catch (...) {
+    // Others would wait for ever. They stop for the same reason, so that whoever is heard first
+    // tells it.
+    for (GridCells& grid : bucket.grids)
+      if (grid.memo) grid.memo->give_up(std::current_exception());
+    throw;
+  }
 
   const size_t stride = shader_.floats_per_cell();
   std::vector<float> values(bucket.count * stride), of_grid;

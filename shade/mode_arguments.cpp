@@ -3,32 +3,31 @@
 #include <algorithm>
 #include <charconv>
 #include <string>
+#include <vector>
 
 #include "base/error.h"
 
 namespace tessera {
 namespace {
 
-void read_one(const char* mode, std::string_view argument,
-              std::initializer_list<ModeArgument> known) {
-  const size_t equals = std::min(argument.find('='), argument.size());
-  const std::string_view key = argument.substr(0, equals);
+double read_number(const char* mode, const ModeArgument& known, std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || !(value > known.above) ||
+      !(value <= known.at_most)) {
+    throw Error(fmt::format(
+        "shading mode \"{}\": {} ({}): expected a number above {} and at most {}, found \"{}\"",
+        mode, known.key, known.what, known.above, known.at_most, text));
+  }
+  return value;
+}
+
+const ModeArgument& find(const char* mode, std::string_view argument, std::string_view key,
+                         std::initializer_list<ModeArgument> known) {
   std::string keys;
   for (const ModeArgument& k : known) {
+    if (key == k.key) return k;
     keys += fmt::format("{}{}=NUMBER", keys.empty() ? "" : ", ", k.key);
-    if (key != k.key) continue;
-    const std::string_view text = argument.substr(std::min(equals + 1, argument.size()));
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !(value > k.above) ||
-        !(value < k.below)) {
-      throw Error(
-          fmt::format("shading mode \"{}\": {} ({}): expected a number above {} and below "
-                      "{}, found \"{}\"",
-                      mode, k.key, k.what, k.above, k.below, text));
-    }
-    *k.value = value;
-    return;
   }
   throw Error(fmt::format("shading mode \"{}\": unknown argument \"{}\"; expected {}", mode,
                           argument, keys.empty() ? "none" : keys));
@@ -38,10 +37,16 @@ void read_one(const char* mode, std::string_view argument,
 
 void read_mode_arguments(const char* mode, std::string_view arguments,
                          std::initializer_list<ModeArgument> known) {
-  while (!arguments.empty()) {
-    const size_t comma = std::min(arguments.find(','), arguments.size());
-    read_one(mode, arguments.substr(0, comma), known);
-    arguments.remove_prefix(std::min(comma + 1, arguments.size()));
+  std::vector<const ModeArgument*> given;
+  for (size_t first = 0; !arguments.empty() && first <= arguments.size();) {
+    const std::string_view argument = arguments.substr(first, arguments.find(',', first) - first);
+    first += argument.size() + 1;
+    const size_t equals = std::min(argument.find('='), argument.size());
+    const ModeArgument& k = find(mode, argument, argument.substr(0, equals), known);
+    if (std::ranges::find(given, &k) != given.end())
+      throw Error(fmt::format("shading mode \"{}\": {} is given more than once", mode, k.key));
+    given.push_back(&k);
+    *k.value = read_number(mode, k, argument.substr(std::min(equals + 1, argument.size())));
   }
 }
 

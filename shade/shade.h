@@ -37,7 +37,9 @@ struct ShadeInput {
   const SampleBlock* samples = nullptr;
   bool wants_cells = false;  ///< fill ShadedFragments::cell
   /// Where the points shaded for this bucket lie on the raster is appended here, each point of the
-  /// frame once, in the bucket that first needs it; null: nobody asks.
+  /// frame once, in the bucket that first needs it: at shutter open, or, where shading is tied to
+  /// samples, where the first of them lies. Points that have no such place (grids that reach behind
+  /// the camera plane) are left out. Null: nobody asks.
   std::vector<glm::vec2>* shaded_at = nullptr;
 };
 

@@ -140,7 +140,9 @@ glm::ivec2 ShadingSpace::cell_over(const glm::vec2& raster) const {
 }
 
 SurfacePoint ShadingSpace::shading_point(const ShadingCell& cell) const {
-  return index_->nearest(cell.chart, float(cell.x) + 0.5f, float(cell.y) + 0.5f, 0.5f);
+  // Half a diagonal: what touches no more than a corner of the cell may still be nearest.
+  constexpr float reach = 0.7072f;
+  return index_->nearest(cell.chart, float(cell.x) + 0.5f, float(cell.y) + 0.5f, reach);
 }
 
 CellFootprint ShadingSpace::footprint(const SurfacePoint& point) const {

@@ -38,6 +38,8 @@ class ShadingSpace {
  public:
   /// The grid must outlive the space.
   ShadingSpace(const Grid& grid, const Camera& camera, const ShadingSpaceSettings& settings);
+  ShadingSpace(const ShadingSpace&) = delete;  // the index refers to other members
+  ShadingSpace& operator=(const ShadingSpace&) = delete;
 
   bool parametric() const { return parametric_; }
   /// Lattice coordinates of a point.

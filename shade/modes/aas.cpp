@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cameras/spectrum.h"
 #include "shade/blur_bounds.h"
 #include "shade/lattice_shading.h"
 #include "shade/mode_arguments.h"
@@ -18,11 +19,12 @@ Shares read_shares(std::string_view arguments) {
   constexpr double not_given = -1;
   double all = not_given;
   Shares given{not_given, not_given, not_given};
-  read_mode_arguments("aas", arguments,
-                      {{"share", "share of energy, for all three", &all, 0, 1},
-                       {"lens", "share of the lens's energy", &given.lens, 0, 1},
-                       {"shutter", "share of the shutter's energy", &given.shutter, 0, 1},
-                       {"filter", "share of the pixel filter's energy", &given.filter, 0, 1}});
+  read_mode_arguments(
+      "aas", arguments,
+      {{"share", "share of energy, for all three", &all, 0, most_energy_share},
+       {"lens", "share of the lens's energy", &given.lens, 0, most_energy_share},
+       {"shutter", "share of the shutter's energy", &given.shutter, 0, most_energy_share},
+       {"filter", "share of the pixel filter's energy", &given.filter, 0, most_energy_share}});
   Shares shares;
   for (double Shares::*share : {&Shares::lens, &Shares::shutter, &Shares::filter}) {
     if (all != not_given) shares.*share = all;

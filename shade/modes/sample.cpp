@@ -7,12 +7,17 @@
 namespace tessera {
 namespace {
 
-/// Every fragment is a cell, and would need a block of hardware's own.
+/// Every fragment is a cell, and would need a block of hardware's own. Named by its place in the
+/// frame, not in the bucket.
 ShadingRequest key_of(const ShadeInput& input, size_t fragment) {
   const FragmentList& fragments = *input.fragments;
   const PixelRect& rect = input.samples->rect;
-  const uint64_t name = cell_name(cell_name(3, uint64_t(rect.x0), uint64_t(rect.y0)),
-                                  fragments.sample[fragment], fragment);
+  const size_t sample = fragments.sample[fragment], pixel = pixel_of(input, fragment);
+  const size_t behind = fragment - fragments.first_of_sample[sample];
+  const uint64_t x = uint64_t(rect.x0 + int(pixel) % rect.width()),
+                 y = uint64_t(rect.y0 + int(pixel) / rect.width());
+  const uint64_t name =
+      cell_name(cell_name(3, x, y), sample % size_t(input.samples->samples_per_pixel), behind);
   return {name, name};
 }
 

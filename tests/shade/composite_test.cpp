@@ -57,6 +57,18 @@ TEST_CASE("two layers composite as over, a channel at a time") {
   CHECK(stack.group("a") == std::vector<float>{1, 0});
 }
 
+TEST_CASE("a failed fragment spoils the sample that sees it, and only that") {
+  Stack stack(false);
+  const auto fail_behind = [&](glm::vec3 opacity) {
+    stack.colors({0.1f, 0.2f, 0.3f}, opacity);
+    for (std::vector<float>& c : stack.shaded.Ci) c[1] = std::nanf("");
+    return stack.group("rgb");
+  };
+  CHECK(fail_behind({1, 1, 1}) == std::vector<float>{0.1f, 0, 0.2f, 0, 0.3f, 0});
+  CHECK(std::isnan(fail_behind({1, 0.5f, 1})[2]));
+  CHECK(std::isnan(fail_behind({0, 0, 0})[0]));
+}
+
 TEST_CASE("alpha is the mean opacity met") {
   Stack stack(false);
   stack.colors({0, 0, 0}, {0.5f, 0.25f, 0.75f});
