@@ -88,7 +88,8 @@ bool ShadingSpace::fit_lattice(const ShadingSpaceSettings& settings) {
     if (to_grid) {
       constexpr double rounding = 1e-4;
       cells = std::max(1, int(std::ceil(length - rounding)));
-      const double stretch = std::clamp(cells / length, 1.0, 1e6);
+      // Not where the grid is next to nothing, and all of it in one cell anyway.
+      const double stretch = length > 1e-3 ? std::max(1.0, cells / length) : 1.0;
       axis *= stretch;
       offset = (cells - stretch * (range.low + range.high)) / 2;
     } else {
