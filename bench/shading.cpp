@@ -22,7 +22,19 @@ namespace {
 
 using Columns = BenchmarkContext::Columns;
 
-constexpr Window whole{0, 1, 0, 1}, middle{0.25, 0.75, 0.25, 0.75};
+/// Parts of the frame. Strips across it are like all of it in a quick run: blur and cells are as
+/// many pixels wide as ever, which they would not be in a smaller frame.
+struct Windows {
+  Window counted, sequence, timed;
+  double compared_share;  ///< of the sides of ShadingCase::compared, around its middle
+};
+constexpr Windows full_windows{{0, 1, 0, 1}, {0.25, 0.75, 0.25, 0.75}, {0.25, 0.75, 0.25, 0.75}, 1},
+    quick_windows{{0, 1, 0.45, 0.55}, {0, 1, 0.48, 0.52}, {0, 1, 0.48, 0.51}, 0.34};
+
+Window middle_of(const Window& w, double share) {
+  const double x = (w.x_max - w.x_min) * (1 - share) / 2, y = (w.y_max - w.y_min) * (1 - share) / 2;
+  return {w.x_min + x, w.x_max - x, w.y_min + y, w.y_max - y};
+}
 
 /// Those of the five that this program has.
 std::vector<std::string> modes(std::initializer_list<const char*> wanted = {"aas", "ds", "reyes",
@@ -38,14 +50,14 @@ double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
 /// How large everything is.
 struct Scale {
-  int width, height, side_samples = 4;
+  int width = 1280, height = 720, side_samples = 4;
+  Windows windows;
   int reference_spp, warm_ups, repeats, sequence_frames;
   float expensive_cost;  ///< noise evaluations a point
 };
 
 Scale scale_of(const BenchmarkContext& context) {
-  return {.width = context.scaled(1280, 432),
-          .height = context.scaled(720, 243),
+  return {.windows = context.quick ? quick_windows : full_windows,
           .reference_spp = context.scaled(256, 32),
           .warm_ups = context.scaled(1, 0),
           .repeats = context.scaled(3, 1),
@@ -57,7 +69,7 @@ Scale scale_of(const BenchmarkContext& context) {
 struct ReplayJob {
   std::string name, scene, lens;
   double motion = 1, place = 0;  ///< as in ShadingSceneRequest
-  Window window = whole;
+  Window window;
   CacheSizes sizes{};
   std::vector<ModeReplay> replays{};
 
@@ -115,11 +127,11 @@ class ShadingBenchmark {
   std::vector<ReplayJob> replay_jobs() const {
     std::vector<ReplayJob> jobs;
     for (const ShadingCase& c : shading_cases()) {
-      jobs.push_back({c.name(), c.scene, c.lens});
+      jobs.push_back({c.name(), c.scene, c.lens, 1, 0, scale_.windows.counted});
       for (size_t entries = 16; entries <= 4096; entries *= 2) jobs.back().sizes.push_back(entries);
       jobs.back().add_modes(modes());
     }
-    jobs.push_back({"static/pinhole", "arena", "pinhole", 0, 0});
+    jobs.push_back({"static/pinhole", "arena", "pinhole", 0, 0, scale_.windows.counted});
     jobs.back().add_modes(modes({"aas", "ds", "reyes"}));
     for (const char* lens : {"sharp", "smooth"})
       for (int frame = 0; frame < scale_.sequence_frames; ++frame) {
@@ -127,7 +139,8 @@ class ShadingBenchmark {
         const double place = (frame + 0.5) / scale_.sequence_frames - 0.5;
         const double swell = std::cos(std::numbers::pi * place);
         jobs.push_back({fmt::format("sequence/{:02}/{}", frame, lens), "arena", lens,
-                        0.03 + 0.97 * swell * swell, place, middle, sequence_sizes});
+                        0.03 + 0.97 * swell * swell, place, scale_.windows.sequence,
+                        sequence_sizes});
         jobs.back().add_modes(modes({"aas", "ds", "reyes"}));
       }
     return jobs;
@@ -230,14 +243,15 @@ class ShadingBenchmark {
     constexpr uint32_t reference_seed = 1;
     const int spp = scale_.side_samples * scale_.side_samples;
     const std::string best = modes({"sample"}).empty() ? "reyes" : "sample";
-    const Image reference = picture(scene, best, scale_.reference_spp, reference_seed, c.compared);
+    const Window compared = middle_of(c.compared, scale_.windows.compared_share);
+    const Image reference = picture(scene, best, scale_.reference_spp, reference_seed, compared);
     ViewingConditions viewing;
-    viewing.width_degrees *= float(c.compared.x_max - c.compared.x_min);
+    viewing.width_degrees *= float(compared.x_max - compared.x_min);
     for (const std::string& mode : modes()) {
-      const Image usual = picture(scene, mode, spp, 0, c.compared);
+      const Image usual = picture(scene, mode, spp, 0, compared);
       const Image same_samples =
           mode == best ? reference
-                       : picture(scene, mode, scale_.reference_spp, reference_seed, c.compared);
+                       : picture(scene, mode, scale_.reference_spp, reference_seed, compared);
       result[mode] = {{"rel_mse", compare_images(usual, reference).rel_mse},
                       {"rel_mse_same_samples", compare_images(same_samples, reference).rel_mse},
                       {"perceptual", visible_share(usual, reference, viewing)},
@@ -253,7 +267,7 @@ class ShadingBenchmark {
     double points = 0;
   };
 
-  /// Renders the middle of the frame with all modes in turn.
+  /// Renders a part of the frame with all modes in turn.
   std::map<std::string, ShadeCost> shade_costs(const Scene& scene) const {
     std::map<std::string, ShadeCost> costs;
     const std::vector<std::string> names = modes();
@@ -262,7 +276,7 @@ class ShadingBenchmark {
         const std::string& mode = names[(k + size_t(round + scale_.warm_ups)) % names.size()];
         Settings settings;
         settings.shading = mode;
-        settings.crop = middle;
+        settings.crop = scale_.windows.timed;
         Diagnostics diagnostics;
         const Statistics statistics = render_frame(scene, settings, diagnostics).statistics;
         if (round < 0) continue;

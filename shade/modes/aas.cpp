@@ -12,7 +12,7 @@ namespace {
 /// Shares of energy that the cells must be able to carry: of the lens's, the shutter's and the
 /// pixel filter's spectrum. docs/shading.md has the measurements that they come from.
 struct Shares {
-  double lens = 0.98, shutter = 0.98, filter = 0.98;
+  double lens = 0.96, shutter = 0.98, filter = 0.98;
 };
 
 Shares read_shares(std::string_view arguments) {
