@@ -2,11 +2,12 @@
 /// caches would have to shade (Figures 8 and 9 of K. Vaidyanathan et al., "Adaptive Image Space
 /// Shading for Motion and Defocus Blur", 2012, on scenes of our own), seconds of shading, and the
 /// distance from a converged image that shades every sample. Counts are of whole frames (those of a
-/// sequence of the middle quarter of it), times of the middle quarter, images of a window of each
+/// sequence of the middle quarter of it), times of a strip across, images of a window of each
 /// scene. Columns NAME_vs_ds divide the row's value by that of ds: quads by those of ds with a
 /// cache 16 times as large (`quads_vs_ds`), without bounds, and of the same size.
 
 #include <algorithm>
+#include <charconv>
 #include <map>
 
 #include <tbb/parallel_for_each.h>
@@ -28,7 +29,7 @@ struct Windows {
   Window counted, sequence, timed;
   double compared_share;  ///< of the sides of ShadingCase::compared, around its middle
 };
-constexpr Windows full_windows{{0, 1, 0, 1}, {0.25, 0.75, 0.25, 0.75}, {0.25, 0.75, 0.25, 0.75}, 1},
+constexpr Windows full_windows{{0, 1, 0, 1}, {0.25, 0.75, 0.25, 0.75}, {0, 1, 0.45, 0.52}, 1},
     quick_windows{{0, 1, 0.45, 0.55}, {0, 1, 0.48, 0.52}, {0, 1, 0.48, 0.51}, 0.34};
 
 Window middle_of(const Window& w, double share) {
@@ -52,12 +53,37 @@ double ratio(double a, double b) { return b > 0 ? a / b : 0; }
 struct Scale {
   int width = 1280, height = 720, side_samples = 4;
   Windows windows;
+  CacheSizes cache_sizes;
   int reference_spp, warm_ups, repeats, sequence_frames;
   float expensive_cost;  ///< noise evaluations a point
 };
 
+/// Sizes of memo caches from "16,64,1024"; powers of two from 16 to 4096 without.
+CacheSizes cache_sizes(const BenchmarkContext& context) {
+  CacheSizes sizes;
+  if (context.arguments.empty()) {
+    for (size_t entries = 16; entries <= 4096; entries *= 2) sizes.push_back(entries);
+    return sizes;
+  }
+  const std::string& list = context.arguments[0];
+  for (size_t start = 0; start <= list.size();) {
+    const size_t end = std::min(list.find(',', start), list.size());
+    size_t entries = 0;
+    const auto [last, error] = std::from_chars(&list[start], &list[start] + (end - start), entries);
+    if (error != std::errc() || last != &list[start] + (end - start) || entries < 1)
+      throw Error(
+          fmt::format("cache sizes \"{}\": expected whole numbers above 0, separated by "
+                      "commas, found \"{}\"",
+                      list, list.substr(start, end - start)));
+    sizes.push_back(entries);
+    start = end + 1;
+  }
+  return sizes;
+}
+
 Scale scale_of(const BenchmarkContext& context) {
   return {.windows = context.quick ? quick_windows : full_windows,
+          .cache_sizes = cache_sizes(context),
           .reference_spp = context.scaled(256, 32),
           .warm_ups = context.scaled(1, 0),
           .repeats = context.scaled(3, 1),
@@ -128,7 +154,7 @@ class ShadingBenchmark {
     std::vector<ReplayJob> jobs;
     for (const ShadingCase& c : shading_cases()) {
       jobs.push_back({c.name(), c.scene, c.lens, 1, 0, scale_.windows.counted});
-      for (size_t entries = 16; entries <= 4096; entries *= 2) jobs.back().sizes.push_back(entries);
+      jobs.back().sizes = scale_.cache_sizes;
       jobs.back().add_modes(modes());
     }
     jobs.push_back({"static/pinhole", "arena", "pinhole", 0, 0, scale_.windows.counted});
@@ -314,8 +340,10 @@ class ShadingBenchmark {
 }  // namespace
 
 BenchmarkDefinition benchmark_shading() {
-  return {"shading", "points, quads, seconds and errors of the shading modes under blur",
-          [](BenchmarkContext& context) { ShadingBenchmark(context).run(); }};
+  return {"shading",
+          "points, quads, seconds and errors of the shading modes under blur",
+          [](BenchmarkContext& context) { ShadingBenchmark(context).run(); },
+          {"CACHE,CACHE,..."}};
 }
 
 }  // namespace tessera

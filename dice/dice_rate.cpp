@@ -9,7 +9,7 @@ namespace {
 
 int ceiling(float x) { return int(std::ceil(std::clamp(x, 1.0f, 1e6f))); }
 
-/// Blur at which a factor of 1 begins to coarsen, as renderers of this family have it.
+/// Blur at which a factor of 1 begins to coarsen.
 constexpr float reference_blur_pixels = 16;
 /// A micropolygon's side never exceeds this part of the blur.
 constexpr float largest_part_of_blur = 1.0f / 4;

@@ -23,7 +23,9 @@ class CellMemo : public GridAttachment {
   std::optional<ShadingSpace> space;
 
   /// Gives each key its slot; `mine` are the places in `keys` of the cells that nobody has claimed:
-  /// the caller must shade and publish() them before it asks for any cell of any grid by read().
+  /// the caller must shade and publish() them before it asks for any cell of any grid by read(), and
+  /// until then do nothing that might run another bucket on its stack (wait for tasks, say): that
+  /// one could come to wait for cells that only its own caller can publish.
   void claim(std::span<const uint64_t> keys, std::vector<uint32_t>& slots,
              std::vector<uint32_t>& mine);
   /// `values` of the cells of `slots`, [slot][float], `places` telling which of the slots are new.

@@ -2,11 +2,12 @@
 
 namespace tessera {
 
-const ShadingSpace& FragmentShading::space_of(const Grid& grid) {
+const ShadingSpace& FragmentShading::space_of(const Grid& grid, ShadeCounters& counters) {
   CellMemo& memo = attachments_.of<CellMemo>(
       grid, [&] { return std::make_unique<CellMemo>(shader_.floats_per_cell()); });
   std::call_once(memo.made, [&] {
     memo.space.emplace(grid, shader_.bindings().camera(), ShadingSpaceSettings{});
+    ++counters.grids_shaded;
   });
   return *memo.space;
 }
@@ -30,7 +31,7 @@ void FragmentShading::shade(const ShadeInput& input, ShadedFragments& out,
     if (!is_new) continue;
     const Grid& grid = *input.grids[fragments.grid[f]];
     const ShadingSpace*& space = spaces[fragments.grid[f]];
-    if (!space) space = &space_of(grid);
+    if (!space) space = &space_of(grid, counters);
     const SurfacePoint at{fragments.triangle[f], fragments.b1[f], fragments.b2[f]};
     CellFootprint footprint = space->footprint(at);
     footprint.ij_per_x *= side, footprint.ij_per_y *= side;

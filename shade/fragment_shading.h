@@ -22,7 +22,7 @@ class FragmentShading : public Shading {
                 std::vector<ShadingRequest>& out) override;
 
  private:
-  const ShadingSpace& space_of(const Grid& grid);
+  const ShadingSpace& space_of(const Grid& grid, ShadeCounters& counters);
 
   CellShader shader_;
   KeyOf key_of_;
