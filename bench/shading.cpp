@@ -30,7 +30,7 @@ struct Windows {
   double compared_share;  ///< of the sides of ShadingCase::compared, around its middle
 };
 constexpr Windows full_windows{{0, 1, 0, 1}, {0.25, 0.75, 0.25, 0.75}, {0, 1, 0.45, 0.52}, 1},
-    quick_windows{{0, 1, 0.45, 0.55}, {0, 1, 0.48, 0.52}, {0, 1, 0.48, 0.51}, 0.34};
+    quick_windows{{0, 1, 0.46, 0.54}, {0, 1, 0.48, 0.51}, {0, 1, 0.48, 0.505}, 0.3};
 
 Window middle_of(const Window& w, double share) {
   const double x = (w.x_max - w.x_min) * (1 - share) / 2, y = (w.y_max - w.y_min) * (1 - share) / 2;
@@ -88,7 +88,7 @@ Scale scale_of(const BenchmarkContext& context) {
           .warm_ups = context.scaled(1, 0),
           .repeats = context.scaled(3, 1),
           .sequence_frames = context.scaled(24, 6),
-          .expensive_cost = float(context.scaled(60, 15))};
+          .expensive_cost = float(context.scaled(100, 25))};
 }
 
 /// One frame whose requests are replayed.

@@ -15,6 +15,7 @@ SurfacePoint point_of(const FragmentList& fragments, size_t f) {
 /// The cells of one grid that a bucket sees.
 struct GridCells {
   CellMemo* memo = nullptr;
+  uint64_t name = 0;  ///< of the grid
   std::vector<uint64_t> keys;
   std::vector<ShadingCell> cells;
   std::vector<uint32_t> places;  ///< of each among the cells of the bucket
@@ -58,12 +59,14 @@ LatticeShading::BucketCells LatticeShading::cells_of(const ShadeInput& input,
   for (size_t f = 0; f < fragments.size(); ++f) {
     const uint32_t g = fragments.grid[f];
     GridCells& grid = bucket.grids[g];
-    if (!grid.memo) grid.memo = &memo_of(*input.grids[g], &counters);
+    if (!grid.memo) {
+      grid.memo = &memo_of(*input.grids[g], &counters);
+      grid.name = grid_name(input.grids[g]->id);
+    }
     const ShadingCell cell = grid.memo->space->cell_of(point_of(fragments, f));
     const uint64_t key = cell.key();
     if (key != last_key || g != last_grid) {
-      const uint64_t name = cell_name(grid_name(input.grids[g]->id), key, 0);
-      const auto [place, is_new] = index.insert(name);
+      const auto [place, is_new] = index.insert(cell_name(grid.name, key, 0));
       if (is_new) {
         grid.keys.push_back(key), grid.cells.push_back(cell), grid.places.push_back(place);
       }
