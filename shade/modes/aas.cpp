@@ -49,24 +49,26 @@ BandLimits band_limits(const ShadingFrame& frame, const Shares& shares) {
 
 /// K. Vaidyanathan et al., "Adaptive image space shading for motion and defocus blur", HPG 2012.
 ShadingModeDefinition shading_mode_aas() {
-  return {"aas",
-          "adaptive anisotropic shading: cells along the motion, as large as the blur allows",
-          [](std::string_view arguments, const ShadingFrame& frame) -> std::unique_ptr<Shading> {
-            const BandLimits limits = band_limits(frame, read_shares(arguments));
-            const int per_edge = cells_per_edge(frame);
-            return std::make_unique<LatticeShading>(frame, [=](const Grid& grid) {
-              const BlurBounds blur =
-                  blur_bounds(grid, frame.bindings->camera(), frame.motion, frame.lens);
-              ShadingExtents extents = shading_extents(blur, limits);
-              // Cells as fine as pixels do best where pixels are: a pixel then sees one of them,
-              // not parts of four.
-              const bool sharp = extents.d_mu >= float(2 * limits.pixel);
-              const float per_pixel = 1.0f / std::sqrt(grid.attributes().shading_rate);
-              extents.d_mu *= per_pixel, extents.d_perp *= per_pixel;
-              return ShadingSpaceSettings{
-                  extents, sharp ? LatticeAnchor::raster : LatticeAnchor::grid, per_edge};
-            });
-          }};
+  return {
+      "aas",
+      "adaptive anisotropic shading: cells along the motion, as large as the blur allows (share=S,"
+      " or lens=S, shutter=S, filter=S: shares of energy that cells can carry)",
+      [](std::string_view arguments, const ShadingFrame& frame) -> std::unique_ptr<Shading> {
+        const BandLimits limits = band_limits(frame, read_shares(arguments));
+        const int per_edge = cells_per_edge(frame);
+        return std::make_unique<LatticeShading>(frame, [=](const Grid& grid) {
+          const BlurBounds blur =
+              blur_bounds(grid, frame.bindings->camera(), frame.motion, frame.lens);
+          ShadingExtents extents = shading_extents(blur, limits);
+          // Cells as fine as pixels do best where pixels are: a pixel then sees one of them,
+          // not parts of four.
+          const bool sharp = extents.d_mu >= float(2 * limits.pixel);
+          const float per_pixel = 1.0f / std::sqrt(grid.attributes().shading_rate);
+          extents.d_mu *= per_pixel, extents.d_perp *= per_pixel;
+          return ShadingSpaceSettings{extents, sharp ? LatticeAnchor::raster : LatticeAnchor::grid,
+                                      per_edge};
+        });
+      }};
 }
 
 }  // namespace tessera
