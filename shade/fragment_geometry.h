@@ -25,4 +25,11 @@ struct FragmentGeometry {
   glm::vec3 P_camera(float t) const;
 };
 
+/// The pixel of the frame that a fragment was seen in.
+inline glm::ivec2 pixel_of(const ShadeInput& input, size_t fragment) {
+  const PixelRect& rect = input.samples->rect;
+  const int in_bucket = int(input.fragments->sample[fragment]) / input.samples->samples_per_pixel;
+  return {rect.x0 + in_bucket % rect.width(), rect.y0 + in_bucket / rect.width()};
+}
+
 }  // namespace tessera

@@ -16,8 +16,6 @@ void FragmentShading::shade(const ShadeInput& input, ShadedFragments& out,
                             ShadeCounters& counters) {
   const FragmentList& fragments = *input.fragments;
   const float side = footprint_pixels_(*input.samples);
-  const size_t samples_per_pixel = size_t(input.samples->samples_per_pixel);
-  const int width = input.samples->rect.width();
   std::vector<const ShadingSpace*> spaces(input.grids.size(), nullptr);
   std::vector<uint32_t> cell_of_fragment(fragments.size());
   std::vector<CellPoint> points;
@@ -36,10 +34,7 @@ void FragmentShading::shade(const ShadeInput& input, ShadedFragments& out,
     CellFootprint footprint = space->footprint(at);
     footprint.ij_per_x *= side, footprint.ij_per_y *= side;
     points.push_back({&grid, at, footprint});
-    if (!input.shaded_at) continue;
-    const int pixel = int(fragments.sample[f] / samples_per_pixel);
-    input.shaded_at->push_back({float(input.samples->rect.x0 + pixel % width) + 0.5f,
-                                float(input.samples->rect.y0 + pixel / width) + 0.5f});
+    if (input.shaded_at) input.shaded_at->push_back(glm::vec2(pixel_of(input, f)) + 0.5f);
   }
   std::vector<float> values(points.size() * shader_.floats_per_cell());
   shader_.shade(points, values, counters);

@@ -4,6 +4,7 @@
 
 #include "shade/cell_memo.h"
 #include "shade/cell_shader.h"
+#include "shade/fragment_geometry.h"
 #include "shade/grid_attachments.h"
 
 namespace tessera {
@@ -29,10 +30,5 @@ class FragmentShading : public Shading {
   FootprintPixels footprint_pixels_;
   GridAttachments attachments_;
 };
-
-/// Row-major index of a fragment's pixel in its bucket.
-inline size_t pixel_of(const ShadeInput& input, size_t fragment) {
-  return input.fragments->sample[fragment] / size_t(input.samples->samples_per_pixel);
-}
 
 }  // namespace tessera

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shade/cell_name.h"
+#include "shade/fragment_geometry.h"
 
 namespace tessera {
 namespace {
@@ -139,13 +140,10 @@ void LatticeShading::shade(const ShadeInput& input, ShadedFragments& out, ShadeC
 void LatticeShading::show_cells(const ShadeInput& input, const BucketCells& bucket,
                                 std::vector<uint32_t>& cells) const {
   const FragmentList& fragments = *input.fragments;
-  const PixelRect& rect = input.samples->rect;
   for (size_t f = 0; f < fragments.size(); ++f) {
     const uint32_t g = fragments.grid[f];
     const ShadingSpace& space = *bucket.grids[g].memo->space;
-    const int pixel = int(fragments.sample[f]) / input.samples->samples_per_pixel;
-    const glm::vec2 centre(float(rect.x0 + pixel % rect.width()) + 0.5f,
-                           float(rect.y0 + pixel / rect.width()) + 0.5f);
+    const glm::vec2 centre = glm::vec2(pixel_of(input, f)) + 0.5f;
     const ShadingCell own = space.cell_of(point_of(fragments, f));
     const glm::ivec2 cell = space.parametric() ? glm::ivec2(own.x, own.y) : space.cell_over(centre);
     const uint64_t name = grid_name(input.grids[g]->id);

@@ -7,10 +7,8 @@ namespace {
 
 ShadingRequest key_of(const ShadeInput& input, size_t fragment) {
   const FragmentList& fragments = *input.fragments;
-  const PixelRect& rect = input.samples->rect;
-  const size_t pixel = pixel_of(input, fragment);
-  const uint64_t x = uint64_t(rect.x0 + int(pixel) % rect.width()),
-                 y = uint64_t(rect.y0 + int(pixel) / rect.width());
+  const glm::ivec2 pixel = pixel_of(input, fragment);
+  const uint64_t x = uint64_t(pixel.x), y = uint64_t(pixel.y);
   const uint64_t micropolygon = cell_name(grid_name(input.grids[fragments.grid[fragment]]->id), 2,
                                           fragments.triangle[fragment] / 2);
   return {cell_name(micropolygon, x, y), cell_name(micropolygon, x / 2, y / 2)};

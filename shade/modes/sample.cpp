@@ -11,13 +11,11 @@ namespace {
 /// frame, not in the bucket.
 ShadingRequest key_of(const ShadeInput& input, size_t fragment) {
   const FragmentList& fragments = *input.fragments;
-  const PixelRect& rect = input.samples->rect;
-  const size_t sample = fragments.sample[fragment], pixel = pixel_of(input, fragment);
+  const size_t sample = fragments.sample[fragment];
+  const glm::ivec2 pixel = pixel_of(input, fragment);
   const size_t behind = fragment - fragments.first_of_sample[sample];
-  const uint64_t x = uint64_t(rect.x0 + int(pixel) % rect.width()),
-                 y = uint64_t(rect.y0 + int(pixel) / rect.width());
-  const uint64_t name =
-      cell_name(cell_name(3, x, y), sample % size_t(input.samples->samples_per_pixel), behind);
+  const uint64_t name = cell_name(cell_name(3, uint64_t(pixel.x), uint64_t(pixel.y)),
+                                  sample % size_t(input.samples->samples_per_pixel), behind);
   return {name, name};
 }
 

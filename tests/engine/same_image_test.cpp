@@ -1,33 +1,16 @@
 // The same image, bit for bit, whatever the threads, the buckets and the hider.
 
-#include <bit>
-
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
 #include "images/exr.h"
+#include "tests/engine/differing_values.h"
 #include "tests/engine/program.h"
 #include "tests/engine/scene_text.h"
 
 using namespace tessera;
 
 namespace {
-
-// Pixels of two images whose bits differ, over all channels.
-size_t differing_values(const Image& a, const Image& b) {
-  REQUIRE(a.data_window == b.data_window);
-  REQUIRE(a.channels.size() == b.channels.size());
-  size_t count = 0;
-  for (const Image::Channel& channel : a.channels) {
-    const Image::Channel* other = b.find_channel(channel.name);
-    REQUIRE(other);
-    for (size_t i = 0; i < other->values.size(); ++i) {
-      count +=
-          std::bit_cast<uint32_t>(channel.values[i]) != std::bit_cast<uint32_t>(other->values[i]);
-    }
-  }
-  return count;
-}
 
 Image render(const TemporaryFolder& folder, std::vector<std::string> options) {
   std::vector<std::string> arguments{

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "tests/engine/program.h"
+#include "tests/engine/differing_values.h"
 #include "tests/engine/render_text.h"
 #include "tests/engine/scene_text.h"
 
@@ -26,21 +27,6 @@ uint64_t count_of(const FrameResult& frame, std::string_view name) {
     if (entry == name) return value;
   FAIL("no count " << name);
   return 0;
-}
-
-/// Values whose bits differ, over all channels.
-size_t differing_values(const Image& a, const Image& b) {
-  REQUIRE(a.data_window == b.data_window);
-  REQUIRE(a.channels.size() == b.channels.size());
-  size_t count = 0;
-  for (const Image::Channel& channel : a.channels) {
-    const Image::Channel* other = b.find_channel(channel.name);
-    REQUIRE(other);
-    for (size_t i = 0; i < other->values.size(); ++i)
-      count +=
-          std::bit_cast<uint32_t>(channel.values[i]) != std::bit_cast<uint32_t>(other->values[i]);
-  }
-  return count;
 }
 
 Settings settings_of(const std::string& mode, int threads = 1, int bucket_size = 16) {
