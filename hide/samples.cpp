@@ -101,8 +101,13 @@ float line_position(uint32_t stratum, uint32_t strata, float jitter) {
 }  // namespace
 
 SamplePattern::SamplePattern(int samples_per_pixel, uint32_t seed, const LensProfile* lens,
-                             const ShutterProfile* shutter, SampleTuples tuples)
-    : samples_per_pixel_(samples_per_pixel), seed_(seed), warps_(lens, shutter), tuples_(tuples) {
+                             const ShutterProfile* shutter, SampleTuples tuples,
+                             SampleExtras extras)
+    : samples_per_pixel_(samples_per_pixel),
+      seed_(seed),
+      warps_(lens, shutter),
+      tuples_(tuples),
+      extras_(extras) {
   if (samples_per_pixel < 1 || samples_per_pixel > 65536)
     throw Error(fmt::format("{} samples per pixel; expected 1 to 65536", samples_per_pixel));
   check_tuples(tuples, samples_per_pixel);

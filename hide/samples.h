@@ -25,6 +25,10 @@ struct SampleBlock {
   AlignedVector<float>
       t;  ///< shutter time in [0, 1], ascending within a pixel; empty if nothing moves
 
+  /// Places on lights and directions of bounces, [0, 1)^2: for rays of the sample's own. Empty
+  /// unless the pattern was asked for them.
+  AlignedVector<float> light_x, light_y, bounce_x, bounce_y;
+
   /// Its tuple, numbered in order of time, or its line; 0 in the padding. Empty if samples are
   /// free.
   AlignedVector<uint32_t> tuple;
@@ -50,6 +54,12 @@ struct SampleTuples {
   Kind kind = Kind::free;
   int count = 0;
   bool operator==(const SampleTuples&) const = default;
+};
+
+/// Coordinates that a frame's samples carry for rays of their own. Each pair is a (0, 2)-sequence a
+/// pixel, scrambled apart from the others.
+struct SampleExtras {
+  bool light = false, bounce = false;
 };
 
 /// "free", "interleaved:64", ...
@@ -85,7 +95,7 @@ class SamplePattern {
   /// Null profiles switch the lens or time dimensions off; they must outlive the pattern.
   /// Throws Error unless 1 <= samples_per_pixel <= 65536 and the tuples come out even.
   SamplePattern(int samples_per_pixel, uint32_t seed, const LensProfile* lens,
-                const ShutterProfile* shutter, SampleTuples tuples = {});
+                const ShutterProfile* shutter, SampleTuples tuples = {}, SampleExtras extras = {});
 
   int samples_per_pixel() const { return samples_per_pixel_; }
   const SampleTuples& tuples() const { return tuples_; }
@@ -104,6 +114,7 @@ class SamplePattern {
   uint32_t seed_;
   SampleWarps warps_;
   SampleTuples tuples_;
+  SampleExtras extras_;
   TupleTable table_;
   std::vector<glm::vec2> line_;    // [line] direction times the lens extent
   int index_bits_;                 // of the smallest power of two >= samples_per_pixel

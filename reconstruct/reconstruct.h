@@ -19,9 +19,14 @@ namespace tessera {
 struct SampleValues {
   PixelRect rect;
   int samples_per_pixel = 0;  ///< the same in every bucket of a frame
-  std::vector<float> x, y;    ///< raster position, pixels
+  /// [pixel, row-major] its first sample, and one past the last at the end, where some pixels have
+  /// more samples; each counts for less then. Empty: samples_per_pixel each.
+  std::vector<uint32_t> first_of_pixel;
+  std::vector<float> x, y;  ///< raster position, pixels
   /// [group][channel * samples + sample], groups as in FilmSettings.
   std::vector<std::vector<float>> groups;
+  /// Only where a method for distribution effects runs.
+  DistributionSamples distribution;
 };
 
 struct FilmSettings {
@@ -72,5 +77,41 @@ class Film {
   class Blocks;
   std::unique_ptr<Blocks> blocks_;
 };
+
+/// Which distribution effects a frame has.
+struct DistributionFeatures {
+  bool lens = false, motion = false;  ///< as in HideFeatures
+  bool shadow = false, bounce = false;
+  bool any() const { return lens || motion || shadow || bounce; }
+};
+
+struct ReconstructionSettings {
+  FilmSettings film;
+  /// "filter" (the pixel filter alone), or a method of reconstruct/method.h as "name" or
+  /// "name:arguments".
+  std::string method = "filter";
+  DistributionFeatures features;
+  int threads = 1;
+  size_t memory_bytes = size_t(8) << 30;  ///< for the moments of the whole frame
+};
+
+/// The whole stage: samples of buckets go in as into Film; with a method for distribution effects
+/// the whole frame's moments are filtered when the last bucket is in.
+class Reconstruction {
+ public:
+  virtual ~Reconstruction() = default;
+  /// Thread safe; each bucket once.
+  virtual void add_bucket(int i, int j, SampleValues&& values) = 0;
+  /// As Film::finish().
+  virtual Image finish() = 0;
+  virtual FilmCounters counters() const = 0;
+  virtual double filter_s() const { return 0; }  ///< seconds that finish() spent filtering
+};
+
+/// Throws Error for an unknown method, bad arguments, or more moments than the memory allows.
+std::unique_ptr<Reconstruction> make_reconstruction(const ReconstructionSettings& settings);
+
+/// Pixels around a crop that the method needs besides the pixel filter's. Throws Error as above.
+int reconstruction_reach(std::string_view method);
 
 }  // namespace tessera

@@ -150,8 +150,16 @@ void ShaderBindings::bind_shadow(const ShaderCall& call, BoundLight& light) {
   term_lights_.push_back(&light);
 }
 
-std::shared_ptr<const ShaderBindings> bind_shaders(const ShadeSetup& setup) {
-  return std::make_shared<const ShaderBindings>(setup);
+std::shared_ptr<ShaderBindings> bind_shaders(const ShadeSetup& setup) {
+  return std::make_shared<ShaderBindings>(setup);
+}
+
+bool wants_rays(const ShaderBindings&) { return false; }
+
+bool has_effect(const ShaderBindings&, RayEffect) { return false; }
+
+void use_rays(ShaderBindings& bindings, std::shared_ptr<const RayTracer> rays) {
+  bindings.use_rays(std::move(rays));
 }
 
 bool may_be_transparent(const ShaderBindings& bindings, const Surface& surface) {

@@ -48,6 +48,10 @@ class ShaderBindings {
   size_t light_term_count() const { return term_lights_.size(); }
   /// Those lights, in the order of SurfaceColors::light_terms.
   std::span<const BoundLight* const> term_lights() const { return term_lights_; }
+  /// Before the first point is shaded.
+  void use_rays(std::shared_ptr<const RayTracer> rays) { rays_ = std::move(rays); }
+  /// Null: there are none.
+  const RayTracer* rays() const { return rays_.get(); }
   /// Camera units in one world unit.
   float camera_length_of_world() const { return camera_length_of_world_; }
 
@@ -66,6 +70,7 @@ class ShaderBindings {
   bool any_displacement_ = false;
   std::unique_ptr<FrameTextures> textures_;
   FrameShadows shadows_;
+  std::shared_ptr<const RayTracer> rays_;
   std::vector<std::optional<BoundLight>> lights_;  ///< as Scene::lights; empty: does not shine
   std::vector<const BoundLight*> term_lights_;
   std::vector<std::unique_ptr<SurfaceBinding>> bindings_;  ///< in the order surfaces need them

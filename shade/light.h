@@ -1,18 +1,29 @@
 #pragma once
 /// Light shaders: what reaches a batch of points from one light.
 
+#include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "shade/effects.h"
 #include "shade/parameters.h"
 #include "shade/points.h"
 
 namespace tessera {
 
+class BounceRadiance;
+class Camera;
+class RayTracer;
+struct ShadeCounters;
+
 struct BoundLight;
+struct ShareSamples;
+struct LightServices;
+class Emitter;
 class ShadowSource;
 
 /// What one light sends to a batch of points.
@@ -34,6 +45,9 @@ struct LightDefinition {
   std::string help;
   std::vector<ParameterDeclaration> parameters;
   bool ambient = false;  ///< has no direction: counts in ambient, not in diffuse and specular
+  /// Comes from all directions over the surface: counts in diffuse (or in ambient) as it is, without
+  /// a cosine of its own.
+  bool hemisphere = false;
   /// Fills `out`, already sized and zeroed, as if nothing stood in the light's way. Parameters are
   /// in camera space.
   void (*illuminate)(const BoundParameters& parameters, const ShadingPoints& points,
@@ -44,6 +58,39 @@ struct LightDefinition {
   /// in the way.
   void (*transmission)(const BoundLight& light, const ShadingPoints& points,
                        std::span<float> share) = nullptr;
+  /// For lights whose arrival is an integral over their extent (or over all directions), sampled at
+  /// one place `xi` in [0, 1)^2 for each point: the mean over uniform xi of the share times what the
+  /// light adds unblocked is what it adds. May read what `transmission` may, and `surface` and
+  /// `time`. Such lights are `distributed`.
+  void (*share_from)(const BoundLight& light, const ShadingPoints& points,
+                     std::span<const glm::vec2> xi, const LightServices& services,
+                     ShareSamples& out) = nullptr;
+  /// Which effect those samples belong to.
+  RayEffect effect = RayEffect::shadow;
+
+  bool distributed() const { return share_from != nullptr; }
+};
+
+/// What share_from() finds, one entry a point.
+struct ShareSamples {
+  Vec3Array share;  ///< of what the light adds unblocked; may exceed 1
+  std::array<AlignedVector<float>, 2> y, extent;  ///< as in EffectValues
+  AlignedVector<float> slope;                     ///< as in EffectValues
+
+  void reset(int count) {
+    share.reset(count);
+    for (auto* pair : {&y, &extent})
+      for (auto& axis : *pair) axis.assign(padded(size_t(count)), 0.0f);
+    slope.assign(padded(size_t(count)), std::numeric_limits<float>::quiet_NaN());
+  }
+};
+
+/// What lights may call on.
+struct LightServices {
+  const Camera* camera = nullptr;
+  const RayTracer* rays = nullptr;          ///< null: nothing is in the way and nothing bounces
+  const BounceRadiance* bounce = nullptr;   ///< null: what rays meet is black
+  ShadeCounters* counters = nullptr;
 };
 
 std::span<const LightDefinition> light_registry();
@@ -54,7 +101,9 @@ const LightDefinition* find_light(std::string_view name);
 struct BoundLight {
   const LightDefinition* definition = nullptr;
   BoundParameters parameters;
-  ShadowSource* shadow = nullptr;  ///< null: casts no shadows
+  ShadowSource* shadow = nullptr;  ///< depth map; null: none
+  bool ray_traced = false;         ///< shadows by rays
+  std::shared_ptr<const Emitter> emitter{};  ///< the surfaces that shine; only of area lights
   TermRate rate = TermRate::cell;
   /// Which of SurfaceColors::light_terms is this light's; only where the rate is not `cell`.
   std::optional<size_t> term{};

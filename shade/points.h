@@ -45,6 +45,8 @@ struct ShadingPoints {
   const float* normal_variance = nullptr;
   /// cross(dPdx, dPdy) times this sign points outward.
   float normal_sign = 1.0f;
+  const int32_t* surface = nullptr;  ///< Surface::id of each point; null: not known
+  const float* time = nullptr;       ///< shutter time of each point; null: shutter open
   std::vector<PrimvarView> primvars;
   glm::dmat4 camera_from_object{1.0};  ///< primitive variables that are points pass through it
 

@@ -17,6 +17,8 @@
 #include "hide/hide.h"
 #include "images/texture_sampler.h"
 #include "scenes/scene.h"
+#include "shade/effects.h"
+#include "shade/ray_tracer.h"
 
 namespace tessera {
 
@@ -50,6 +52,7 @@ struct ShadedFragments {
   /// [term] What each light whose shadows have a rate of their own adds to Ci where nothing shadows
   /// it (shade/shader.h).
   std::vector<std::array<std::vector<float>, 3>> light_terms;
+  RayEffects effects;  ///< the parts of Ci that rays of the samples' own brought
   /// If asked for, a hash of the cell of its grid that lies over its pixel at shutter open: where
   /// there is no blur the cell that it was shaded by.
   std::vector<uint32_t> cell;
@@ -63,7 +66,7 @@ struct ShadingRequest {
 
 struct ShadeCounters {
   uint64_t grids_shaded = 0, points_shaded = 0, light_evaluations = 0, texture_lookups = 0;
-  uint64_t shadow_lookups = 0, nonfinite_dropped = 0;
+  uint64_t shadow_lookups = 0, rays = 0, nonfinite_dropped = 0;
   static constexpr auto fields() {
     using C = ShadeCounters;
     return std::array{CounterField<C>{"grids_shaded", &C::grids_shaded},
@@ -71,6 +74,7 @@ struct ShadeCounters {
                       CounterField<C>{"light_evaluations", &C::light_evaluations},
                       CounterField<C>{"texture_lookups", &C::texture_lookups},
                       CounterField<C>{"shadow_lookups", &C::shadow_lookups},
+                      CounterField<C>{"rays", &C::rays},
                       CounterField<C>{"nonfinite_dropped", &C::nonfinite_dropped}};
   }
 };
@@ -113,7 +117,14 @@ std::span<const ShadingModeDefinition> shading_mode_registry();
 std::unique_ptr<Shading> make_shading(std::string_view spec, const ShadingFrame& frame);
 
 /// Looks up every shader and light of the scene; unknown ones warn once and use the defaults.
-std::shared_ptr<const ShaderBindings> bind_shaders(const ShadeSetup& setup);
+std::shared_ptr<ShaderBindings> bind_shaders(const ShadeSetup& setup);
+/// Whether some shader or light asks for rays.
+bool wants_rays(const ShaderBindings& bindings);
+/// Whether some light's samples are rays of each sample's own.
+bool has_effect(const ShaderBindings& bindings, RayEffect effect);
+/// Hands over what answers rays, before the first shade(). Without it nothing is in the way of
+/// light and nothing bounces.
+void use_rays(ShaderBindings& bindings, std::shared_ptr<const RayTracer> rays);
 /// The displacement shaders of the scene, for dice/; null when no surface has one.
 std::unique_ptr<Displacer> make_displacer(std::shared_ptr<const ShaderBindings> bindings);
 /// Whether anything seen through such a surface could show: opacity below 1, or a shader or
@@ -139,6 +150,11 @@ struct AovDefinition {
 std::span<const AovDefinition> aov_registry();
 /// Throws Error that lists the choices when unknown.
 const AovDefinition& find_aov(std::string_view name);
+
+/// Fills `out` for a bucket: the effects in `shaded` composited as Ci is, and the nearest surfaces.
+/// `lens` and `motion` as in HideFeatures.
+void describe_samples(const ShadeInput& input, const ShadedFragments& shaded, const Camera& camera,
+                      bool lens, bool motion, DistributionSamples& out);
 
 /// Composites every sample front to back and evaluates the requested groups. `out[i]` receives the
 /// channels of groups[i] one after another: out[i][channel * samples + sample]. Matte surfaces hold
