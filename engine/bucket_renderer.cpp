@@ -1,45 +1,68 @@
 #include "engine/bucket_renderer.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace tessera {
-namespace {
-
-/// Adds the seconds since the last lap to a stage's time.
-class LapTimer {
- public:
-  void lap(double& into_s) {
-    const auto now = std::chrono::steady_clock::now();
-    into_s += std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-}  // namespace
 
 void BucketRenderer::render(int i, int j) {
-  LapTimer timer;
-  const auto grids = parts_.grids.grids_of_bucket(i, j);
-  timer.lap(times_.dice_s);
-  parts_.pattern.fill(parts_.buckets.rect(i, j), samples_);
-  if (parts_.heatmap) pixel_counts_.assign(size_t(samples_.rect.pixel_count()), 0);
-  timer.lap(times_.sample_s);
+  timer_.start();
+  const Grids grids = parts_.grids.grids_of_bucket(i, j);
+  timer_.lap(times_.dice_s);
+  visit(parts_.pattern, parts_.buckets.rect(i, j), grids);
+  std::vector<uint8_t> chosen;
+  if (parts_.extra) chosen = choose_extra(samples_, fragments_, parts_.camera, *parts_.extra);
+  SampleValues values = shade(grids);
+  if (parts_.extra) add_extra(chosen, grids, values);
+  parts_.film.add_bucket(i, j, std::move(values));
+  timer_.lap(times_.reconstruct_s);
+  parts_.grids.finish_bucket(i, j);
+  timer_.lap(times_.dice_s);
+}
+
+/// Finds what the pattern's samples in `rect` see.
+void BucketRenderer::visit(const SamplePattern& pattern, const PixelRect& rect,
+                           const Grids& grids) {
+  pattern.fill(rect, samples_);
+  if (parts_.heatmap) pixel_counts_.assign(size_t(rect.pixel_count()), 0);
+  timer_.lap(times_.sample_s);
   hide(grids);
-  timer.lap(times_.hide_s);
+  timer_.lap(times_.hide_s);
+}
+
+/// Shades and composites what was seen last.
+SampleValues BucketRenderer::shade(const Grids& grids) {
   const ShadeInput input = shade_input(grids);
   parts_.shading.shade(input, shaded_, shade_counters_);
-  timer.lap(times_.shade_s);
+  timer_.lap(times_.shade_s);
   SampleValues values = composite_samples(input);
-  timer.lap(times_.composite_s);
+  timer_.lap(times_.composite_s);
   if (parts_.heatmap) add_to_heatmap();
-  parts_.film.add_bucket(i, j, std::move(values));
-  timer.lap(times_.reconstruct_s);
-  parts_.grids.finish_bucket(i, j);
-  timer.lap(times_.dice_s);
+  return values;
+}
+
+void BucketRenderer::add_extra(const std::vector<uint8_t>& chosen, const Grids& grids,
+                               SampleValues& values) {
+  const PixelRect rect = values.rect;
+  for (size_t step = 0; step < parts_.extra->steps(); ++step) {
+    const auto choice = uint8_t(1 + step);
+    const PixelRect bounds = bounds_of(chosen, rect, choice);
+    if (bounds.empty()) continue;
+    const SamplePattern& pattern = parts_.extra->pattern(step);
+    visit(pattern, bounds, grids);
+    keep_chosen(chosen, rect, choice, samples_, fragments_);
+    append_extra(chosen, choice, shade(grids), values);
+    count_extra(chosen, choice, rect, uint32_t(pattern.samples_per_pixel()));
+  }
+}
+
+void BucketRenderer::count_extra(const std::vector<uint8_t>& chosen, uint8_t choice,
+                                 const PixelRect& rect, uint32_t samples) {
+  extra_samples_ += uint64_t(std::ranges::count(chosen, choice)) * samples;
+  if (!parts_.heatmap || !parts_.heatmap->definition().extra()) return;
+  pixel_counts_.assign(chosen.size(), 0);
+  for (size_t pixel = 0; pixel < chosen.size(); ++pixel)
+    if (chosen[pixel] == choice) pixel_counts_[pixel] = samples;
+  parts_.heatmap->add_bucket(rect, pixel_counts_);
 }
 
 void BucketRenderer::hide(const std::vector<std::shared_ptr<const Grid>>& grids) {
@@ -70,11 +93,10 @@ ShadeInput BucketRenderer::shade_input(std::span<const std::shared_ptr<const Gri
 }
 
 void BucketRenderer::add_to_heatmap() {
-  if (parts_.heatmap->definition().hide_counts) {
+  if (parts_.heatmap->definition().hide_counts)
     parts_.heatmap->add_bucket(samples_.rect, pixel_counts_);
-  } else {
+  else if (parts_.heatmap->definition().shade_places)
     parts_.heatmap->add_places(shaded_places_);
-  }
 }
 
 SampleValues BucketRenderer::composite_samples(const ShadeInput& input) {
@@ -84,6 +106,9 @@ SampleValues BucketRenderer::composite_samples(const ShadeInput& input) {
   values.x.assign(samples_.x.begin(), samples_.x.begin() + long(samples_.size()));
   values.y.assign(samples_.y.begin(), samples_.y.begin() + long(samples_.size()));
   composite(input, shaded_, parts_.camera, parts_.channel_groups, values.groups);
+  if (parts_.describe_samples)
+    describe_samples(input, shaded_, parts_.camera, parts_.features.lens, parts_.features.motion,
+                     values.distribution);
   return values;
 }
 

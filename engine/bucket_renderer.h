@@ -3,11 +3,13 @@
 /// between taking a bucket and handing its samples to the film.
 
 #include <array>
+#include <chrono>
 #include <memory>
 #include <vector>
 
 #include "dice/dice.h"
 #include "engine/buckets.h"
+#include "engine/extra_samples.h"
 #include "engine/heatmap.h"
 #include "hide/hide.h"
 #include "reconstruct/reconstruct.h"
@@ -26,7 +28,9 @@ struct FrameParts {
   const std::vector<const AovDefinition*>& channel_groups;
   GridSource& grids;
   Shading& shading;
-  Film& film;
+  Reconstruction& film;
+  bool describe_samples;       ///< the film wants SampleValues::distribution
+  const ExtraPatterns* extra;  ///< null: every pixel has as many samples
   Heatmap* heatmap;  ///< null: nobody asks what pixels cost
 };
 
@@ -43,6 +47,21 @@ struct StageTimes {
   }
 };
 
+/// Adds the seconds since the last lap to a stage's time.
+class LapTimer {
+ public:
+  void start() { last_ = Clock::now(); }
+  void lap(double& into_s) {
+    const auto now = Clock::now();
+    into_s += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
 /// A worker's own state: buffers that grow once and are reused, counters merged at the end.
 class BucketRenderer {
  public:
@@ -54,8 +73,16 @@ class BucketRenderer {
   const HideCounters& hide_counters() const { return hide_counters_; }
   const ShadeCounters& shade_counters() const { return shade_counters_; }
   const StageTimes& times() const { return times_; }
+  uint64_t extra_samples() const { return extra_samples_; }
 
  private:
+  using Grids = std::vector<std::shared_ptr<const Grid>>;
+
+  void visit(const SamplePattern& pattern, const PixelRect& rect, const Grids& grids);
+  SampleValues shade(const Grids& grids);
+  void add_extra(const std::vector<uint8_t>& chosen, const Grids& grids, SampleValues& values);
+  void count_extra(const std::vector<uint8_t>& chosen, uint8_t choice, const PixelRect& rect,
+                   uint32_t samples);
   void hide(const std::vector<std::shared_ptr<const Grid>>& grids);
   ShadeInput shade_input(std::span<const std::shared_ptr<const Grid>> grids);
   void add_to_heatmap();
@@ -69,9 +96,11 @@ class BucketRenderer {
   std::vector<glm::vec2> shaded_places_;
   FragmentList fragments_;
   ShadedFragments shaded_;
+  LapTimer timer_;
   HideCounters hide_counters_;
   ShadeCounters shade_counters_;
   StageTimes times_;
+  uint64_t extra_samples_ = 0;
 };
 
 }  // namespace tessera

@@ -17,6 +17,7 @@
 #include "engine/overrides.h"
 #include "engine/version.h"
 #include "images/image_module.h"
+#include "rays/rays.h"
 #include "reconstruct/pixel_filter.h"
 
 namespace tessera {
@@ -66,11 +67,40 @@ DiceSettings dice_settings(const FramePlan& plan, const BucketLayout& buckets,
   return dice;
 }
 
-std::unique_ptr<Film> make_film(const FramePlan& plan, const BucketLayout& buckets,
-                                const Camera& camera,
-                                const std::vector<const AovDefinition*>& groups,
-                                const SceneOptions& options) {
-  FilmSettings film;
+/// Null when nothing asks for rays.
+std::shared_ptr<const RayTracer> ray_tracer(const FramePlan& plan, const Scene& scene,
+                                            const Camera& camera, const Settings& settings,
+                                            const DiceSettings& seen, int threads,
+                                            Diagnostics& diagnostics) {
+  if (!plan.ray_tracing) return nullptr;
+  RaySettings rays;
+  rays.max_grid_size = seen.max_grid_size;
+  rays.dicing_rate = settings.ray_dicing_rate;
+  rays.displacer = seen.displacer;
+  rays.wants_primvar = seen.wants_primvar;
+  rays.threads = threads;
+  return make_ray_tracer(scene, camera, rays, diagnostics);
+}
+
+BucketLayout bucket_layout(const FramePlan& plan, const Camera& camera) {
+  const int reach = plan.filters_distribution() ? reconstruction_reach(plan.reconstruct) : 0;
+  const PixelRect crop = camera.crop();
+  const PixelRect filtered =
+      PixelRect{crop.x0 - reach, crop.y0 - reach, crop.x1 + reach, crop.y1 + reach}.intersect(
+          camera.frame());
+  return {sampled_pixels(filtered, camera.frame(), plan.filter_x_width, plan.filter_y_width),
+          plan.bucket_size};
+}
+
+std::unique_ptr<Reconstruction> reconstruction(const FramePlan& plan, const BucketLayout& buckets,
+                                               const Camera& camera,
+                                               const std::vector<const AovDefinition*>& groups,
+                                               const SceneOptions& options, int threads) {
+  ReconstructionSettings settings;
+  settings.method = plan.reconstruct;
+  settings.features = plan.distribution();
+  settings.threads = threads;
+  FilmSettings& film = settings.film;
   film.display_window = camera.frame();
   film.crop = camera.crop();
   film.sampled = buckets.sampled;
@@ -81,7 +111,7 @@ std::unique_ptr<Film> make_film(const FramePlan& plan, const BucketLayout& bucke
   for (const AovDefinition* group : groups) film.groups.push_back(group);
   film.exposure_gain = options.exposure_gain;
   film.exposure_gamma = options.exposure_gamma;
-  return std::make_unique<Film>(film);
+  return make_reconstruction(settings);
 }
 
 int thread_count(const Settings& settings) {
@@ -178,18 +208,16 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   const Camera camera(scene.camera);
   const auto bindings = bind_shaders(shade_setup(scene, camera, diagnostics));
   const FramePlan plan = make_plan(scene, scene.camera, settings, *bindings);
-  const BucketLayout buckets{
-      sampled_pixels(camera.crop(), camera.frame(), plan.filter_x_width, plan.filter_y_width),
-      plan.bucket_size};
+  const BucketLayout buckets = bucket_layout(plan, camera);
+  const int threads = thread_count(settings);
 
   std::vector<const AovDefinition*> groups;
   for (const std::string& name : plan.channel_groups) groups.push_back(&find_aov(name));
-  const auto film = make_film(plan, buckets, camera, groups, scene.options);
+  const auto film = reconstruction(plan, buckets, camera, groups, scene.options, threads);
   const auto hider = make_hider(plan.hider);
   const ShadingFrame shaded = shading_frame(plan, bindings);
   const auto shading = control.make_shading ? control.make_shading(plan.shading, shaded)
                                             : make_shading(plan.shading, shaded);
-  const int threads = thread_count(settings);
   std::optional<Heatmap> heatmap;
   if (settings.heatmap) heatmap.emplace(find_heatmap(*settings.heatmap), camera.crop());
 
@@ -198,10 +226,19 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
     const auto displacer = plan.displacement ? make_displacer(bindings) : nullptr;
     const SamplePattern pattern(
         plan.samples_per_pixel, settings.seed, plan.lens ? &camera.lens_profile() : nullptr,
-        plan.motion ? &camera.shutter_profile() : nullptr, plan.sample_tuples);
-    const auto grids = make_grid_source(
-        scene, camera, dice_settings(plan, buckets, settings, displacer.get(), bindings),
-        diagnostics);
+        plan.motion ? &camera.shutter_profile() : nullptr, plan.sample_tuples,
+        {plan.area_lights, plan.bounce});
+    const DiceSettings dice = dice_settings(plan, buckets, settings, displacer.get(), bindings);
+    const auto grids = make_grid_source(scene, camera, dice, diagnostics);
+    if (const auto rays = ray_tracer(plan, scene, camera, settings, dice, threads, diagnostics)) {
+      use_rays(*bindings, rays);
+      statistics.add(*rays);
+    }
+    std::optional<ExtraPatterns> extra;
+    if (plan.extra_samples > 0)
+      extra.emplace(plan.extra_samples, settings.seed, &camera.lens_profile(),
+                    plan.motion ? &camera.shutter_profile() : nullptr,
+                    SampleExtras{plan.area_lights, plan.bounce});
     statistics.setup_done();
     const HideFeatures features{plan.motion, plan.lens, plan.transparency};
     const FrameParts parts{camera,
@@ -214,6 +251,8 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
                            *grids,
                            *shading,
                            *film,
+                           plan.filters_distribution(),
+                           extra ? &*extra : nullptr,
                            heatmap ? &*heatmap : nullptr};
     BucketQueue queue(buckets, control);
     render_buckets(parts, threads, queue, statistics);
@@ -223,7 +262,7 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   result.display_encoded = scene.options.exposure_gamma != 1.0f;
   result.image = film->finish();
   result.image.pixel_aspect = scene.camera.pixel_aspect;
-  statistics.add(film->counters());
+  statistics.add(*film);
   if (heatmap) {
     result.heatmap = heatmap->definition().name;
     heatmap->add_channel(result.image);

@@ -50,6 +50,7 @@ std::vector<std::pair<std::string, std::string>> options_in_force(const Scene& s
   };
   add("shading_rate", settings.shading_rate);
   add("dicing_rate", settings.dicing_rate);
+  add("ray_dicing_rate", settings.ray_dicing_rate);
   add("motion_factor", settings.motion_factor);
   add("focus_factor", settings.focus_factor);
   if (settings.heatmap) options.emplace_back("heatmap", *settings.heatmap);
@@ -63,6 +64,12 @@ void FrameStatistics::add(const BucketRenderer& worker) {
   for (const auto& [name, member] : StageTimes::fields()) times_.*member += worker.times().*member;
   merge_counters(hide_, worker.hide_counters());
   merge_counters(shade_, worker.shade_counters());
+  extra_samples_ += worker.extra_samples();
+}
+
+void FrameStatistics::add(const Reconstruction& reconstruction) {
+  merge_counters(film_, reconstruction.counters());
+  filter_s_ = reconstruction.filter_s();
 }
 
 void FrameStatistics::add(const GridSource& grids) {
@@ -83,17 +90,19 @@ Statistics FrameStatistics::finish(const FramePlan& plan, const Scene& scene,
                                    const Settings& settings, int threads,
                                    const Diagnostics& diagnostics) const {
   Statistics statistics;
-  statistics.times_s = {{"frame_s", elapsed_s()}, {"setup_s", setup_s_}};
+  statistics.times_s = {{"frame_s", elapsed_s()}, {"setup_s", setup_s_}, {"filter_s", filter_s_}};
   for (const auto& [name, member] : StageTimes::fields())
     statistics.times_s.emplace_back(name, times_.*member);
   append_counts("dice", dice_, statistics);
   append_counts("hide", hide_, statistics);
   append_counts("shade", shade_, statistics);
   append_counts("film", film_, statistics);
+  statistics.counts.emplace_back("extra_samples", extra_samples_);
   statistics.heatmap = heatmap_;
   statistics.ratios = {{"ste", ratio(hide_.samples_covered, hide_.samples_tested)}};
   statistics.memory_bytes = {{"peak_resident_bytes", peak_resident_bytes()},
-                             {"peak_grid_bytes", peak_grid_bytes_}};
+                             {"peak_grid_bytes", peak_grid_bytes_},
+                             {"ray_bytes", ray_bytes_}};
   statistics.plan = plan.entries();
   statistics.options = options_in_force(scene, settings, threads);
   statistics.warnings = diagnostics.lines();

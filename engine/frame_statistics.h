@@ -16,7 +16,8 @@ class FrameStatistics {
   void setup_done() { setup_s_ = elapsed_s(); }
   void add(const BucketRenderer& worker);
   void add(const GridSource& grids);
-  void add(const FilmCounters& film) { merge_counters(film_, film); }
+  void add(const Reconstruction& reconstruction);
+  void add(const RayTracer& rays) { ray_bytes_ = rays.memory_bytes(); }
   /// The last to be added. Warns if the map is empty because the plan's methods do not fill it.
   void add(const HeatmapScale& scale, const Heatmap& map, const FramePlan& plan,
            Diagnostics& diagnostics);
@@ -30,7 +31,7 @@ class FrameStatistics {
   }
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double setup_s_ = 0;
+  double setup_s_ = 0, filter_s_ = 0;
   std::mutex mutex_;
   StageTimes times_;
   HideCounters hide_;
@@ -38,7 +39,8 @@ class FrameStatistics {
   DiceCounters dice_;
   FilmCounters film_;
   std::vector<std::pair<std::string, double>> heatmap_;
-  size_t peak_grid_bytes_ = 0;
+  uint64_t extra_samples_ = 0;
+  size_t peak_grid_bytes_ = 0, ray_bytes_ = 0;
 };
 
 }  // namespace tessera

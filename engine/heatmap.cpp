@@ -18,6 +18,8 @@ constexpr HeatmapDefinition definitions[] = {
     {"shading",
      "points shaded in each pixel: where they lie at shutter open, or (pixel, sample) are seen",
      "points per pixel", nullptr, &ShadeInput::shaded_at},
+    {"extra", "samples of each pixel besides those that all have: where the focal plane is in it",
+     "samples per pixel", nullptr, nullptr},
 };
 
 /// Control points of the ramp, evenly spaced; CIE L* 0, 16, 32, 51, 69, 84, 98.
@@ -58,7 +60,7 @@ void Heatmap::add_bucket(const PixelRect& rect, std::span<const uint32_t> counts
         &counts[size_t(y - rect.y0) * size_t(rect.width()) + size_t(part.x0 - rect.x0)];
     uint32_t* to =
         &counts_[size_t(y - pixels_.y0) * size_t(pixels_.width()) + size_t(part.x0 - pixels_.x0)];
-    std::copy(from, from + part.width(), to);
+    for (int x = 0; x < part.width(); ++x) to[x] += from[x];
   }
 }
 

@@ -21,9 +21,11 @@ struct HeatmapDefinition {
   const char* name;
   const char* help;
   const char* unit;  ///< of a pixel's value
-  /// Where the stage that counts puts what it has: one of the two is set.
+  /// Where the stage that counts puts what it has. Both null: extra samples, which the engine counts.
   std::span<uint32_t> HideInput::*hide_counts;
   std::vector<glm::vec2>* ShadeInput::*shade_places;
+
+  bool extra() const { return !hide_counts && !shade_places; }
 };
 
 std::span<const HeatmapDefinition> heatmap_registry();

@@ -44,6 +44,7 @@ Scene apply_overrides(const Scene& scene, const Settings& settings) {
   if (settings.y_resolution) changed.camera.y_resolution = *settings.y_resolution;
   check_area("shading rate", settings.shading_rate);
   check_area("dicing rate", settings.dicing_rate);
+  check_area("ray dicing rate", settings.ray_dicing_rate);
   check_factor("motion factor", settings.motion_factor);
   check_factor("focus factor", settings.focus_factor);
   if (settings.shading_rate || settings.motion_factor || settings.focus_factor)

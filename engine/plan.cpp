@@ -90,7 +90,25 @@ void set_needs(FramePlan& plan, const Scene& scene, const CameraSettings& camera
     plan.textures = plan.textures || (last->surface && names_a_texture(*last->surface)) ||
                     (last->displacement && names_a_texture(*last->displacement));
   }
-  for (const Light& light : scene.lights) plan.area_lights = plan.area_lights || light.area;
+  plan.area_lights = has_effect(bindings, RayEffect::shadow);
+  plan.bounce = has_effect(bindings, RayEffect::bounce);
+  plan.ray_tracing = wants_rays(bindings) && !scene.surfaces.empty();
+}
+
+/// A frame without distribution effects goes through no filter for them, whatever was asked for.
+void set_reconstruction(FramePlan& plan, const Settings& settings) {
+  constexpr const char* best_method = "wiener";
+  constexpr int most_extra_samples = 100;
+  const std::string asked = settings.reconstruct.value_or(
+      plan.area_lights || plan.bounce ? best_method : plan.reconstruct);
+  reconstruction_reach(asked);  // throws when there is no such method
+  if (!plan.distribution().any()) return;
+  plan.reconstruct = asked;
+  // Hiders that prescribe the samples have no use for more of them in some pixels.
+  const bool free_samples = plan.sample_tuples.kind == SampleTuples::Kind::free;
+  if (plan.lens && plan.filters_distribution() && free_samples)
+    plan.extra_samples =
+        checked("extra samples", settings.extra_samples.value_or(most_extra_samples), 0, 4096);
 }
 
 /// Of the whole frame: the most over its surfaces, so that nobody takes micropolygons for smaller
@@ -130,6 +148,7 @@ FramePlan make_plan(const Scene& scene, const CameraSettings& camera, const Sett
   plan.filter_x_width = options.filter_x_width;
   plan.filter_y_width = options.filter_y_width;
   set_filter(plan, settings.filter.value_or(options.filter));
+  set_reconstruction(plan, settings);
   plan.channel_groups = channel_groups_of(scene, settings);
   return plan;
 }
@@ -142,6 +161,7 @@ std::vector<std::pair<std::string, std::string>> FramePlan::entries() const {
           {"displacement", yes(displacement)},
           {"textures", yes(textures)},
           {"area_lights", yes(area_lights)},
+          {"bounce", yes(bounce)},
           {"ray_tracing", yes(ray_tracing)},
           {"samples_per_pixel", std::to_string(samples_per_pixel)},
           {"bucket_size", std::to_string(bucket_size)},
@@ -152,6 +172,8 @@ std::vector<std::pair<std::string, std::string>> FramePlan::entries() const {
           {"hider", hider},
           {"samples", to_string(sample_tuples)},
           {"shading", shading},
+          {"reconstruct", reconstruct},
+          {"extra_samples", std::to_string(extra_samples)},
           {"filter", fmt::format("{}:{}x{}", filter, filter_x_width, filter_y_width)},
           {"channels", fmt::format("{}", fmt::join(channel_groups, " "))}};
 }

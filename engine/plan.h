@@ -9,6 +9,7 @@
 #include "cameras/camera_settings.h"
 #include "engine/settings.h"
 #include "hide/samples.h"
+#include "reconstruct/reconstruct.h"
 #include "scenes/scene.h"
 
 namespace tessera {
@@ -21,8 +22,9 @@ struct FramePlan {
   bool transparency = false;  ///< some surface may let others show through
   bool displacement = false;  ///< some surface has a displacement shader
   bool textures = false;      ///< some shader names a texture: the image library is loaded
-  bool area_lights = false;   ///< some light has extent (kept, not yet used)
-  bool ray_tracing = false;   ///< some shader traces rays (none does yet)
+  bool area_lights = false;   ///< some light has extent, and each sample a place of its own on it
+  bool bounce = false;        ///< some light comes from all around, by a ray of each sample's own
+  bool ray_tracing = false;   ///< some light asks for rays, and there is something to meet
 
   int samples_per_pixel = 16;
   int bucket_size = 32;
@@ -33,11 +35,17 @@ struct FramePlan {
   /// stays below half of the noise at 64 samples a pixel (docs/dicing.md, Blur).
   float motion_factor = 2, focus_factor = 8;
   std::string hider = "auto", shading = "aas";
+  /// How samples become pixels: "filter", or a method for distribution effects (reconstruct/).
+  std::string reconstruct = "filter";
+  int extra_samples = 0;  ///< most a pixel may have besides samples_per_pixel
   std::string filter = "gaussian";
   float filter_x_width = 2, filter_y_width = 2;
   std::vector<std::string> channel_groups;  ///< AOVs to compute
   SampleTuples sample_tuples;               ///< what the hider wants of the samples
 
+  DistributionFeatures distribution() const { return {lens, motion, area_lights, bounce}; }
+  /// Whether a method for distribution effects runs, not the pixel filter alone.
+  bool filters_distribution() const { return reconstruct != "filter"; }
   /// (name, value) of every entry, for printing and for the statistics.
   std::vector<std::pair<std::string, std::string>> entries() const;
 };

@@ -21,6 +21,11 @@ struct Settings {
   std::optional<std::string> hider;    ///< "name" or "name:arguments"
   std::optional<std::string> shading;  ///< "name" or "name:arguments"
   std::optional<std::string> filter;   ///< "name" or "name:XxY", full widths in pixels
+  /// "filter" (the pixel filter alone) or "name" or "name:arguments" of a method for distribution
+  /// effects.
+  std::optional<std::string> reconstruct;
+  std::optional<float> ray_dicing_rate;  ///< pixels^2; of the micropolygons that rays meet
+  std::optional<int> extra_samples;      ///< most a pixel may have besides, where slopes change sign
   std::optional<int> bucket_size;      ///< pixels
   std::optional<int> grid_size;        ///< micropolygons along a side
   std::vector<std::string> aovs;  ///< channel groups; empty: rgb, a, z and those of the displays

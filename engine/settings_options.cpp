@@ -8,6 +8,7 @@
 
 #include "engine/heatmap.h"
 #include "hide/hide.h"
+#include "reconstruct/method.h"
 #include "reconstruct/pixel_filter.h"
 #include "shade/shade.h"
 
@@ -15,6 +16,7 @@ namespace tessera {
 namespace {
 
 constexpr int max_samples_per_pixel = 1 << 16;
+constexpr int max_extra_samples = 4096;
 constexpr int max_resolution = 1 << 15;
 constexpr int max_bucket_size = 4096;
 constexpr int max_grid_size = 256;
@@ -71,6 +73,18 @@ CLI::Validator number_between(float low, float high) {
       fmt::format("[{} - {}]", low, high));
 }
 
+/// As one_of() the methods for distribution effects, and "filter" for none of them.
+CLI::Validator reconstruction() {
+  return CLI::Validator(
+      [](std::string& spec) -> std::string {
+        if (spec == "filter") return "";
+        const std::string problem =
+            one_of(reconstruction_method_registry(), "reconstruction")(spec);
+        return problem.empty() ? problem : problem + " filter";
+      },
+      "NAME");
+}
+
 void add_rate_options(CLI::App& app, Settings& settings) {
   const auto add = [&app](const char* option, std::optional<float>& setting, const char* help,
                           const CLI::Validator& valid, const char* value) {
@@ -89,6 +103,10 @@ void add_rate_options(CLI::App& app, Settings& settings) {
   add("--focus-factor", settings.focus_factor,
       "how fast micropolygons grow with circles of confusion beyond 16 pixels / F, 0: never",
       factor, "F");
+  add("--ray-dicing-rate", settings.ray_dicing_rate,
+      "area of the micropolygons that rays meet in pixels^2, for every surface (16 times that of "
+      "those that are seen)",
+      area, "R");
 }
 
 void add_raster_options(CLI::App& app, Settings& settings) {
@@ -129,6 +147,11 @@ void add_choice_options(CLI::App& app, Settings& settings) {
   app.add_option("--filter", settings.filter, "pixel filter, with its full widths in pixels")
       ->check(one_of(pixel_filter_registry(), "filter"))
       ->type_name("NAME[:XxY]");
+  app.add_option("--reconstruct", settings.reconstruct,
+                 "how samples become pixels where lens, motion, lights with extent or bounces "
+                 "spread them")
+      ->check(reconstruction())
+      ->type_name("NAME[:COMPONENTS]");
   app.add_option_function<std::string>(
          "--aov", [&settings](const std::string& list) { settings.aovs = split_list(list); },
          "channels to write, separated by commas")
@@ -154,6 +177,11 @@ std::string list_registry(const char* title, const Registry& registry) {
 void add_settings_options(CLI::App& app, Settings& settings) {
   app.add_option("--spp", settings.samples_per_pixel, "samples per pixel")
       ->check(CLI::Range(1, max_samples_per_pixel))
+      ->type_name("N");
+  app.add_option("--extra-samples", settings.extra_samples,
+                 "most samples a pixel may have besides, where a filter for distribution effects "
+                 "runs and the focal plane is in it (100)")
+      ->check(CLI::Range(0, max_extra_samples))
       ->type_name("N");
   add_rate_options(app, settings);
   add_raster_options(app, settings);
@@ -182,6 +210,7 @@ std::string list_choices() {
   return "\n" + list_registry("Hiders", hider_registry()) +
          list_registry("Shading modes", shading_mode_registry()) +
          list_registry("Filters", pixel_filter_registry()) +
+         list_registry("Reconstruction", reconstruction_method_registry()) +
          list_registry("Channels (--aov)", aov_registry()) +
          list_registry("Heat maps (--heatmap)", heatmap_registry());
 }
