@@ -31,7 +31,7 @@ struct FrameParts {
   Reconstruction& film;
   bool describe_samples;       ///< the film wants SampleValues::distribution
   const ExtraPatterns* extra;  ///< null: every pixel has as many samples
-  Heatmap* heatmap;  ///< null: nobody asks what pixels cost
+  Heatmap* heatmap;            ///< null: nobody asks what pixels cost
 };
 
 /// Seconds a worker spent in each stage.

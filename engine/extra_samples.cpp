@@ -54,7 +54,8 @@ void for_arrays(DistributionSamples& own, const DistributionSamples& extra, F f)
   for (size_t e = 0; e < ray_effect_count; ++e) {
     EffectValues& a = own.effects[e];
     const EffectValues& b = extra.effects[e];
-    for (size_t c = 0; c < 3; ++c) f(a.received[c], b.received[c]), f(a.unblocked[c], b.unblocked[c]);
+    for (size_t c = 0; c < 3; ++c)
+      f(a.received[c], b.received[c]), f(a.unblocked[c], b.unblocked[c]);
     for (size_t c = 0; c < 2; ++c) f(a.y[c], b.y[c]), f(a.extent[c], b.extent[c]);
     f(a.slope, b.slope);
   }

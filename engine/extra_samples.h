@@ -1,7 +1,7 @@
 #pragma once
-/// More samples for pixels in which the slopes of defocus have both signs: there the double wedge is
-/// a box and no filter helps (L. Wu et al., "Multiple axis-aligned filters for rendering of combined
-/// distribution effects", EGSR 2017, section 6.2).
+/// More samples for pixels in which the slopes of defocus have both signs: there the double wedge
+/// is a box and no filter helps (L. Wu et al., "Multiple axis-aligned filters for rendering of
+/// combined distribution effects", EGSR 2017, section 6.2).
 
 #include <cstdint>
 #include <memory>
@@ -13,8 +13,8 @@
 
 namespace tessera {
 
-/// The patterns that extra samples come from, by their number: a few steps, each with the samples of
-/// a frame's own kind. Made once a frame.
+/// The patterns that extra samples come from, by their number: a few steps, each with the samples
+/// of a frame's own kind. Made once a frame.
 class ExtraPatterns {
  public:
   /// `most`: extra samples of a pixel, at most.
@@ -30,8 +30,8 @@ class ExtraPatterns {
   std::vector<SamplePattern> patterns_;
 };
 
-/// For each pixel of the block, row-major, 1 + the step of extra samples that it gets, 0 for none: a
-/// function of what its own samples see. Pixels whose nearest surfaces' circles of confusion have
+/// For each pixel of the block, row-major, 1 + the step of extra samples that it gets, 0 for none:
+/// a function of what its own samples see. Pixels whose nearest surfaces' circles of confusion have
 /// both signs get what the sampling-rate bound asks for (reconstruct/sampling_rate.h).
 std::vector<uint8_t> choose_extra(const SampleBlock& samples, const FragmentList& fragments,
                                   const Camera& camera, const ExtraPatterns& patterns);

@@ -224,10 +224,10 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   FrameResult result;
   if (!scene.surfaces.empty()) {
     const auto displacer = plan.displacement ? make_displacer(bindings) : nullptr;
-    const SamplePattern pattern(
-        plan.samples_per_pixel, settings.seed, plan.lens ? &camera.lens_profile() : nullptr,
-        plan.motion ? &camera.shutter_profile() : nullptr, plan.sample_tuples,
-        {plan.area_lights, plan.bounce});
+    const SamplePattern pattern(plan.samples_per_pixel, settings.seed,
+                                plan.lens ? &camera.lens_profile() : nullptr,
+                                plan.motion ? &camera.shutter_profile() : nullptr,
+                                plan.sample_tuples, {plan.area_lights, plan.bounce});
     const DiceSettings dice = dice_settings(plan, buckets, settings, displacer.get(), bindings);
     const auto grids = make_grid_source(scene, camera, dice, diagnostics);
     if (const auto rays = ray_tracer(plan, scene, camera, settings, dice, threads, diagnostics)) {

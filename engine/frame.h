@@ -29,11 +29,11 @@ struct FrameControl {
 };
 
 struct FrameResult {
-  /// Every channel asked for, over the crop window. Its metadata name the scene, the frame, the plan
-  /// and the options in force, the version and the time, and whether the frame is complete.
+  /// Every channel asked for, over the crop window. Its metadata name the scene, the frame, the
+  /// plan and the options in force, the version and the time, and whether the frame is complete.
   Image image;
   Statistics statistics;
-  std::string heatmap;  ///< name of the heat map among the channels; empty: none
+  std::string heatmap;           ///< name of the heat map among the channels; empty: none
   bool display_encoded = false;  ///< the scene's Exposure has a gamma: colours are not linear
   bool complete = true;  ///< false after a cancellation: missing buckets are black and transparent
 };

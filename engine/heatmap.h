@@ -21,7 +21,8 @@ struct HeatmapDefinition {
   const char* name;
   const char* help;
   const char* unit;  ///< of a pixel's value
-  /// Where the stage that counts puts what it has. Both null: extra samples, which the engine counts.
+  /// Where the stage that counts puts what it has. Both null: extra samples, which the engine
+  /// counts.
   std::span<uint32_t> HideInput::*hide_counts;
   std::vector<glm::vec2>* ShadeInput::*shade_places;
 

@@ -26,7 +26,8 @@ std::vector<std::string> write_displays(const FrameResult& frame, const Scene& s
 /// Error when it cannot be read or lacks what a shadow map needs (shade/shadow_map.h).
 void make_shadow(const std::string& picture, const std::string& shadow);
 
-/// An 8-bit picture to look at, from the rgb channels; sRGB unless the scene's own Exposure encodes it.
+/// An 8-bit picture to look at, from the rgb channels; sRGB unless the scene's own Exposure encodes
+/// it.
 void write_preview(const FrameResult& frame, const std::string& path);
 
 /// Where the picture of heat map `name` goes: OUT.exr -> OUT.NAME.png.

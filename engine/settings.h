@@ -25,10 +25,10 @@ struct Settings {
   /// effects.
   std::optional<std::string> reconstruct;
   std::optional<float> ray_dicing_rate;  ///< pixels^2; of the micropolygons that rays meet
-  std::optional<int> extra_samples;      ///< most a pixel may have besides, where slopes change sign
-  std::optional<int> bucket_size;      ///< pixels
-  std::optional<int> grid_size;        ///< micropolygons along a side
-  std::vector<std::string> aovs;  ///< channel groups; empty: rgb, a, z and those of the displays
+  std::optional<int> extra_samples;  ///< most a pixel may have besides, where slopes change sign
+  std::optional<int> bucket_size;    ///< pixels
+  std::optional<int> grid_size;      ///< micropolygons along a side
+  std::vector<std::string> aovs;     ///< channel groups; empty: rgb, a, z and those of the displays
   std::optional<std::string> heatmap;  ///< measure to map, one of engine/heatmap.h
   uint32_t seed = 0;
   int threads = 0;                        ///< 0: every core

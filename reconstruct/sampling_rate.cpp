@@ -37,8 +37,8 @@ double samples_along_axis(std::span<const EffectWedges> effects, AxisWedge Effec
 }  // namespace
 
 double samples_by_bound(std::span<const EffectWedges> effects) {
-  const double samples = samples_along_axis(effects, &EffectWedges::x) *
-                         samples_along_axis(effects, &EffectWedges::y);
+  const double samples =
+      samples_along_axis(effects, &EffectWedges::x) * samples_along_axis(effects, &EffectWedges::y);
   return std::min(samples, most_samples);
 }
 

@@ -20,8 +20,8 @@ double bound(AxisWedge x, AxisWedge y = {}) {
 /// filter passes in x, reaches what it passes in y. Replicas of the line at shift d are shifted by
 /// multiples of pi * samples.
 double searched_samples(double d_min, double d_max) {
-  const double pass_y = 4, pass_x = d_min > 0 ? std::min(std::numbers::pi, 4 / d_min)
-                                              : std::numbers::pi;
+  const double pass_y = 4,
+               pass_x = d_min > 0 ? std::min(std::numbers::pi, 4 / d_min) : std::numbers::pi;
   for (double samples = 1;; samples += 1e-3) {
     bool clear = true;
     for (int replica = -3; replica <= 3; ++replica) {
@@ -48,7 +48,8 @@ TEST_CASE("The sampling-rate bound keeps replicas out of the filter", "[sampling
   }
 }
 
-TEST_CASE("A wedge with both signs is bounded by its larger side and the pixels", "[sampling_rate]") {
+TEST_CASE("A wedge with both signs is bounded by its larger side and the pixels",
+          "[sampling_rate]") {
   CHECK(bound({-2, 5}) == Approx((4 + 5 * std::numbers::pi) / std::numbers::pi));
   CHECK(bound({-5, 2}) == bound({-2, 5}));
 }
@@ -57,8 +58,8 @@ TEST_CASE("A second effect narrows the filter of the first", "[sampling_rate]") 
   const EffectWedges shadow{{0.5f, 8}, {}}, lens{{10, 10}, {}};
   const EffectWedges both[] = {shadow, lens};
   const double bandwidth = 4.0 / 10;
-  CHECK(samples_by_bound(both) == Approx((4 + 8 * bandwidth) / std::numbers::pi *
-                                         (4 + 10 * bandwidth) / std::numbers::pi));
+  CHECK(samples_by_bound(both) ==
+        Approx((4 + 8 * bandwidth) / std::numbers::pi * (4 + 10 * bandwidth) / std::numbers::pi));
 }
 
 TEST_CASE("The sampling-rate bound is finite for any wedge", "[sampling_rate]") {
