@@ -50,7 +50,11 @@ class SharedGridSource final : public GridSource {
       : settings_(settings),
         projection_(camera, settings.crop),
         buckets_(settings.crop, settings.bucket_size) {
-    make_contexts(scene, camera, diagnostics);
+    contexts_ =
+        make_surface_contexts(scene, camera, projection_, settings_, topologies_, diagnostics);
+    prepared_.surfaces =
+        uint64_t(std::count_if(contexts_.begin(), contexts_.end(),
+                               [](const SurfaceContext& c) { return c.patches != nullptr; }));
     std::vector<Chunk> chunks = make_all_chunks(diagnostics);
     std::vector<int> buckets_of_chunk(chunks.size());
     chunks_of_bucket_.resize(size_t(buckets_.columns) * size_t(buckets_.rows));
@@ -97,26 +101,6 @@ class SharedGridSource final : public GridSource {
     return i >= 0 && j >= 0 && i < buckets_.columns && j < buckets_.rows;
   }
   size_t index(int i, int j) const { return size_t(j) * size_t(buckets_.columns) + size_t(i); }
-
-  void make_contexts(const Scene& scene, const Camera& camera, Diagnostics& diagnostics) {
-    contexts_.resize(scene.surfaces.size());
-    std::vector<std::string> failures(scene.surfaces.size());
-    tbb::parallel_for(size_t(0), scene.surfaces.size(), [&](size_t s) {
-      try {
-        contexts_[s] = make_surface_context(scene.surfaces[s], uint32_t(s), camera, projection_,
-                                            settings_, topologies_);
-      } catch (const Error& error) {
-        failures[s] = error.what();
-      }
-    });
-    for (size_t s = 0; s < failures.size(); ++s) {
-      if (failures[s].empty()) {
-        ++prepared_.surfaces;
-      } else {
-        diagnostics.warn_once(failures[s], failures[s] + "; the surface is left out");
-      }
-    }
-  }
 
   std::vector<Chunk> make_all_chunks(Diagnostics& diagnostics) {
     struct Task {

@@ -31,7 +31,21 @@ float RasterProjection::visible_w(const glm::vec3& P_camera, float w) const {
   return std::max({w, w_x, w_y, std::max(near_, 1e-20f)});
 }
 
+float RasterProjection::turned_length(const glm::vec3& a, const glm::vec3& b) const {
+  // In double: squares of large or small coordinates leave the range of float.
+  const glm::dvec3 from(a), to(b);
+  double distance = 1;
+  if (perspective_) {
+    const double nearest =
+        std::min({glm::length(from), glm::length(to), glm::length(0.5 * (from + to))});
+    distance = std::max(nearest, double(least_distance_));
+  }
+  const double length = pixels_per_unit_ * glm::length(to - from) / distance;
+  return std::isfinite(length) ? float(std::min(length, 1e9)) : 0.0f;
+}
+
 float RasterProjection::segment_length(const glm::vec3& a, const glm::vec3& b) const {
+  if (least_distance_ > 0) return turned_length(a, b);
   float w_a = map_.w_from_z * a.z + map_.w_constant;
   float w_b = map_.w_from_z * b.z + map_.w_constant;
   if (w_a <= 0 && w_b <= 0) return 0;

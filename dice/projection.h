@@ -16,7 +16,14 @@ class RasterProjection {
   /// any point of the lens, as far as the frame shows it: an end beside the frame counts where it
   /// would enter it. So the estimate is bounded where a segment nears or crosses the camera plane;
   /// behind it, it is zero. Of the frame, not the crop: a crop is diced like the whole.
+  ///
+  /// After turn_to_eye() instead: the length that the segment would have in the middle of the
+  /// frame, squarely and at its own distance from the eye, whether it is in sight or not.
   float segment_length(const glm::vec3& a, const glm::vec3& b) const;
+
+  /// Makes segment_length() independent of where the camera looks. What is nearer than
+  /// `least_distance` (camera units, positive) counts as if it were at that distance.
+  void turn_to_eye(float least_distance) { least_distance_ = least_distance; }
 
   /// Whether nothing in the convex hull of `points`, grown by `radius` (camera units), can be seen
   /// in the crop rectangle by any lens coordinate. Separating planes through the eye: needs no
@@ -38,6 +45,8 @@ class RasterProjection {
   /// the frame from some point of the lens.
   float visible_w(const glm::vec3& P_camera, float w) const;
 
+  float turned_length(const glm::vec3& a, const glm::vec3& b) const;
+
   /// Adds one camera-space point through the whole lens; returns false (and adds nothing) when it
   /// is not in front of the camera plane.
   bool add_point(const glm::vec3& P_camera, RasterBounds& box) const;
@@ -48,6 +57,7 @@ class RasterProjection {
   float near_ = 0, far_ = 0;
   float pixels_per_unit_ = 1;
   float reach_x_ = 1, reach_y_ = 1;  ///< pixels from the optical axis to the frame's far side
+  float least_distance_ = 0;         ///< 0: lengths as the frame shows them
   bool perspective_ = true;
 };
 

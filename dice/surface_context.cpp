@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
+
 #include "dice/nurbs.h"
 #include "dice/patch_mesh.h"
 #include "dice/quadric.h"
@@ -108,6 +110,29 @@ SurfaceContext make_surface_context(const Surface& surface, uint32_t index, cons
     return !settings.wants_primvar || settings.wants_primvar(attributes, name);
   };
   return context;
+}
+
+std::vector<SurfaceContext> make_surface_contexts(const Scene& scene, const Camera& camera,
+                                                  const RasterProjection& projection,
+                                                  const DiceSettings& settings,
+                                                  TopologyCache& topologies,
+                                                  Diagnostics& diagnostics) {
+  std::vector<SurfaceContext> contexts(scene.surfaces.size());
+  std::vector<std::string> failures(scene.surfaces.size());
+  tbb::parallel_for(size_t(0), scene.surfaces.size(), [&](size_t s) {
+    try {
+      contexts[s] = make_surface_context(scene.surfaces[s], uint32_t(s), camera, projection,
+                                         settings, topologies);
+    } catch (const Error& error) {
+      failures[s] = error.what();
+    }
+  });
+  for (const std::string& failure : failures) {
+    if (!failure.empty()) {
+      diagnostics.warn_once(failure, failure + "; the surface is left out");
+    }
+  }
+  return contexts;
 }
 
 }  // namespace tessera

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 #include "dice/dice.h"
 #include "dice/edge_span.h"
@@ -42,6 +43,14 @@ class TopologyCache {
   std::mutex mutex_;
   std::map<const Geometry*, Entry> entries_;
 };
+
+/// One a surface of the scene, made in parallel. Those that cannot be evaluated are reported and
+/// stay without patches. All arguments must outlive the result.
+std::vector<SurfaceContext> make_surface_contexts(const Scene& scene, const Camera& camera,
+                                                  const RasterProjection& projection,
+                                                  const DiceSettings& settings,
+                                                  TopologyCache& topologies,
+                                                  Diagnostics& diagnostics);
 
 /// Throws Error when the surface cannot be evaluated. All arguments must outlive the result.
 SurfaceContext make_surface_context(const Surface& surface, uint32_t index, const Camera& camera,

@@ -1,0 +1,189 @@
+#include "rays/embree/embree_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+
+namespace tessera {
+
+namespace {
+
+constexpr int most_intervals = 64;
+constexpr float key_tolerance = 1e-4f;
+
+size_t triangle_count(std::span<const uint32_t> grids, const auto& all) {
+  size_t count = 0;
+  for (uint32_t g : grids) count += 2 * size_t(all[g]->micropolygon_count());
+  return count;
+}
+
+size_t vertex_count(std::span<const uint32_t> grids, const auto& all) {
+  size_t count = 0;
+  for (uint32_t g : grids) count += size_t(all[g]->vertex_count());
+  return count;
+}
+
+/// Where in a grid's keys a time lies.
+struct KeyPosition {
+  int key = 0;
+  float weight = 0;  ///< of key + 1
+};
+
+KeyPosition key_position(std::span<const float> times, float t) {
+  KeyPosition at;
+  while (at.key + 1 < int(times.size()) && times[size_t(at.key) + 1] <= t) ++at.key;
+  if (at.key + 1 < int(times.size())) {
+    const float t0 = times[size_t(at.key)], t1 = times[size_t(at.key) + 1];
+    at.weight = std::clamp((t - t0) / (t1 - t0), 0.0f, 1.0f);
+  }
+  return at;
+}
+
+/// Vertices of a grid between two keys, as x, y, z, x, y, z, ...
+void write_vertices(const Grid& grid, const KeyPosition& at, float* xyz) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const float* from = grid.P(at.key, axis);
+    const float* to = at.weight > 0 ? grid.P(at.key + 1, axis) : from;
+    for (int k = 0; k < grid.vertex_count(); ++k) {
+      xyz[3 * k + axis] = from[k] + at.weight * (to[k] - from[k]);
+    }
+  }
+}
+
+}  // namespace
+
+int even_intervals(std::span<const float> times) {
+  const auto holds = [&](int intervals) {
+    return std::all_of(times.begin(), times.end(), [&](float t) {
+      const float step = t * float(intervals);
+      return std::abs(step - std::round(step)) <= key_tolerance * float(intervals);
+    });
+  };
+  for (int n = int(times.size()) - 1; n < most_intervals; ++n) {
+    if (holds(n)) return n;
+  }
+  return most_intervals;
+}
+
+EmbreeScene::EmbreeScene(RayScene&& scene) {
+  grids_ = std::move(scene.grids);
+  describe_grids(scene);
+  device_ = rtcNewDevice(fmt::format("threads={}", scene.threads).c_str());
+  if (!device_) {
+    throw Error(fmt::format("Embree does not start: error {}", int(rtcGetDeviceError(nullptr))));
+  }
+  rtcSetDeviceMemoryMonitorFunction(device_, &EmbreeScene::count_memory, this);
+  scene_ = rtcNewScene(device_);
+  rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+  std::map<std::vector<float>, std::vector<uint32_t>> by_keys;
+  for (uint32_t g = 0; g < grids_.size(); ++g) by_keys[grids_[g]->key_times].push_back(g);
+  try {
+    for (const auto& [times, grids] : by_keys) add_geometry(grids, scene);
+    rtcCommitScene(scene_);
+    check("building the tree of the scene");
+  } catch (...) {
+    release();
+    throw;
+  }
+}
+
+EmbreeScene::~EmbreeScene() { release(); }
+
+void EmbreeScene::release() {
+  if (scene_) rtcReleaseScene(scene_);
+  if (device_) rtcReleaseDevice(device_);
+}
+
+bool EmbreeScene::count_memory(void* self, ssize_t bytes, bool) {
+  static_cast<EmbreeScene*>(self)->embree_bytes_ += bytes;
+  return true;
+}
+
+void EmbreeScene::check(const char* doing) const {
+  const RTCError error = rtcGetDeviceError(device_);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) {
+    throw Error(fmt::format("rays: out of memory while {}", doing));
+  }
+  if (error != RTC_ERROR_NONE) {
+    throw Error(fmt::format("rays: Embree reports error {} while {}", int(error), doing));
+  }
+}
+
+void EmbreeScene::describe_grids(const RayScene& scene) {
+  met_grids_.resize(grids_.size());
+  for (size_t g = 0; g < grids_.size(); ++g) {
+    const float passing = scene.passing[g];
+    MetGrid& met = met_grids_[g];
+    met.surface = grids_[g]->surface->id;
+    met.opaque = passing <= 0;
+    met.blocks = passing < 1;
+    if (!met.opaque) met.log2_passing = std::llround(std::log2(double(passing)) * 0x1p32);
+    opaque_ = opaque_ && met.opaque;
+  }
+}
+
+void EmbreeScene::add_geometry(std::span<const uint32_t> grids, RayScene& scene) {
+  auto met = std::make_unique<MetGeometry>();
+  met->grids = met_grids_.data();
+  for (uint32_t g : grids) {
+    met_grids_[g].first_micropolygon = uint32_t(met->near.size());
+    met->near.insert(met->near.end(), scene.near[g].begin(), scene.near[g].end());
+    met->grid_of_micropolygon.resize(met->near.size(), g);
+    scene.near[g] = {};
+  }
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  fill_triangles(geometry, grids);
+  fill_vertices(geometry, grids);
+  rtcSetGeometryUserData(geometry, met.get());
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene_, geometry, unsigned(geometries_.size()));
+  rtcReleaseGeometry(geometry);
+  geometries_.push_back(std::move(met));
+  check("handing over triangles");
+}
+
+void EmbreeScene::fill_triangles(RTCGeometry geometry, std::span<const uint32_t> grids) const {
+  auto* corner = static_cast<uint32_t*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(uint32_t), triangle_count(grids, grids_)));
+  check("making room for triangles");
+  uint32_t first_vertex = 0;
+  for (uint32_t g : grids) {
+    const Grid& grid = *grids_[g];
+    for (uint32_t t = 0; t < 2 * uint32_t(grid.micropolygon_count()); ++t) {
+      for (int vertex : grid.triangle_corners(t)) *corner++ = first_vertex + uint32_t(vertex);
+    }
+    first_vertex += uint32_t(grid.vertex_count());
+  }
+}
+
+void EmbreeScene::fill_vertices(RTCGeometry geometry, std::span<const uint32_t> grids) const {
+  const std::vector<float>& times = grids_[grids.front()]->key_times;
+  const int intervals = times.size() > 1 ? even_intervals(times) : 0;
+  rtcSetGeometryTimeStepCount(geometry, unsigned(intervals) + 1);
+  for (int step = 0; step <= intervals; ++step) {
+    auto* xyz = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, unsigned(step), RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), vertex_count(grids, grids_)));
+    check("making room for vertices");
+    const float t = intervals > 0 ? float(step) / float(intervals) : 0.0f;
+    const KeyPosition at = key_position(times, t);
+    for (uint32_t g : grids) {
+      write_vertices(*grids_[g], at, xyz);
+      xyz += 3 * grids_[g]->vertex_count();
+    }
+  }
+}
+
+size_t EmbreeScene::memory_bytes() const {
+  size_t bytes = size_t(std::max<ssize_t>(0, embree_bytes_)) + met_grids_.size() * sizeof(MetGrid);
+  for (const auto& grid : grids_) bytes += grid->memory_bytes();
+  for (const auto& geometry : geometries_) {
+    bytes += geometry->near.size() * (sizeof(NearRange) + sizeof(uint32_t));
+  }
+  return bytes;
+}
+
+}  // namespace tessera
