@@ -209,6 +209,16 @@ void AttributeState::set_area_light(std::optional<int> light) {
   touch(field_area_light);
 }
 
+std::string AttributeState::light_shadow() const {
+  for (const char* name : {"light:shadow", "light:shadows"}) {
+    const auto given = values_.user.find(name);
+    if (given != values_.user.end() && !given->second.strings.empty()) {
+      return given->second.strings.front();
+    }
+  }
+  return "";
+}
+
 void AttributeState::rebase(const KeyedTransform& new_from_outer) {
   outer_from_surface_ = new_from_outer * outer_from_surface_;
   outer_from_displacement_ = new_from_outer * outer_from_displacement_;

@@ -44,6 +44,8 @@ class AttributeState {
   bool inside() const { return inside_; }
   const std::vector<int>& lights() const { return values_.lights; }
   std::optional<int> area_light() const { return values_.area_light; }
+  /// As Light::shadow, for a light declared here.
+  std::string light_shadow() const;
 
   /// Re-expresses all spaces in another outer space.
   void rebase(const KeyedTransform& new_from_outer);

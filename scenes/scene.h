@@ -57,8 +57,12 @@ struct Surface {
 
 struct Light {
   ShaderCall shader;
-  bool area = false;   ///< AreaLightSource: kept, not yet used
+  bool area =
+      false;  ///< AreaLightSource: the surfaces that name it as Attributes::area_light shine
   std::string handle;  ///< as the scene file names it
+  /// Attribute "light" "string shadow" (or "shadows") in force where it is declared; "" = not
+  /// given.
+  std::string shadow;
 };
 
 /// One image to write. `mode` is rgb, rgba, a, z, or the name of one AOV or more ("rgbaz", "P",

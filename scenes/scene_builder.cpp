@@ -153,7 +153,8 @@ std::unique_ptr<Scene> SceneBuilder::finished_scene() {
     scene.lights.push_back({{light.call.name, light.call.parameters,
                              light.outer_from_light.in_shutter(shutter), light.where},
                             light.call.area,
-                            light.call.handle});
+                            light.call.handle,
+                            light.shadow});
   for (const auto& [name, space] : definitions_.named_spaces)
     scene.coordinate_systems.emplace(name, space.in_shutter(shutter));
   return std::move(scene_);
@@ -194,7 +195,7 @@ void SceneBuilder::light(const LightCall& call, const SourceLocation& where) {
   if (!takes_value("a light", where)) return;
   if (call.area && call.name.empty()) return attributes_.set_area_light(std::nullopt);
   const int index = int(definitions_.lights.size());
-  definitions_.lights.push_back({call, outer_from_current_, where});
+  definitions_.lights.push_back({call, outer_from_current_, where, attributes_.light_shadow()});
   definitions_.light_handles[call.handle] = index;
   attributes_.switch_light(index, true);
   if (call.area) attributes_.set_area_light(index);

@@ -35,6 +35,7 @@ class SceneBuilder : public SceneCalls {
     LightCall call;
     KeyedTransform outer_from_light;
     SourceLocation where;
+    std::string shadow;  ///< as in Light
   };
   /// A shape of an object definition; its spaces are relative to the definition.
   struct ObjectShape {

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "shade/emitter.h"
+#include "shade/extended_light.h"
 #include "shade/light_shadows.h"
 
 namespace tessera {
@@ -29,6 +31,13 @@ std::vector<std::string> shadow_search_path(const Scene& scene) {
   return folders;
 }
 
+/// Whether some surface belongs to the area light with that index.
+bool is_part_of_light(const Scene& scene, int light) {
+  return std::ranges::any_of(scene.surfaces, [&](const Surface& surface) {
+    return surface.attributes->area_light == light;
+  });
+}
+
 }  // namespace
 
 std::string_view shader_stem(std::string_view name) {
@@ -51,10 +60,14 @@ ShaderBindings::ShaderBindings(const ShadeSetup& setup)
     const Attributes& attributes = *surface.attributes;
     if (of_attributes_.contains(&attributes)) continue;
     auto binding = std::make_unique<SurfaceBinding>(
-        SurfaceBinding{bind_surface(attributes), bind_displacement(attributes), {}});
+        SurfaceBinding{bind_surface(attributes), bind_displacement(attributes), {}, nullptr});
     for (const int index : attributes.lights) {
       const std::optional<BoundLight>& light = lights_.at(size_t(index));
       if (light) binding->lights.push_back(&*light);
+    }
+    if (attributes.area_light) {
+      const std::optional<BoundLight>& light = lights_.at(size_t(*attributes.area_light));
+      if (light) binding->shines = &*light;
     }
     any_displacement_ |= binding->displacement.has_value();
     of_attributes_.emplace(&attributes, binding.get());
@@ -115,48 +128,109 @@ std::optional<BoundShader> ShaderBindings::bind_displacement(const Attributes& a
 }
 
 void ShaderBindings::bind_lights() {
+  light_services_ = {.camera = setup_.camera, .textures = textures_.get()};
   lights_.resize(setup_.scene->lights.size());
   for (size_t i = 0; i < lights_.size(); ++i) {
     const Light& light = setup_.scene->lights[i];
-    if (light.area) {
-      diagnostics().warn_once("area light", light.shader.where,
-                              "area lights do not illuminate yet; this one is left dark");
-      continue;
-    }
-    const LightDefinition* definition = choose_light(light.shader, diagnostics());
-    if (!definition) continue;
-    const std::string label = fmt::format("light shader \"{}\"", definition->name);
-    lights_[i] =
-        BoundLight{.definition = definition,
-                   .parameters = BoundParameters(definition->parameters, light.shader,
-                                                 spaces_of(light.shader), label, diagnostics())};
-    bind_shadow(light.shader, *lights_[i]);
+    lights_[i] = bind_light(light, int(i));
+    if (lights_[i]) bind_shadow(light, *lights_[i]);
   }
 }
 
-void ShaderBindings::bind_shadow(const ShaderCall& call, BoundLight& light) {
-  if (!light.definition->transmission) return;
+std::optional<BoundLight> ShaderBindings::bind_light(const Light& light, int index) const {
+  const ShaderCall& call = light.shader;
+  const LightDefinition* definition =
+      light.area ? choose_area_light(call, diagnostics()) : choose_light(call, diagnostics());
+  if (!definition) return std::nullopt;
+  if (definition == find_light("arealight") && !is_part_of_light(*setup_.scene, index)) {
+    diagnostics().warn_once(
+        fmt::format("area light {} without surfaces", index), call.where,
+        fmt::format("no surface is part of area light \"{}\"; it is left dark (surfaces that "
+                    "follow an AreaLightSource under the same attributes are)",
+                    call.name));
+    return std::nullopt;
+  }
+  const ShaderSpaces spaces = spaces_of(call);
+  const std::string label = fmt::format("light shader \"{}\"", definition->name);
+  BoundLight bound{
+      .definition = definition,
+      .parameters = BoundParameters(definition->parameters, call, spaces, label, diagnostics()),
+      .where = call.where,
+      .services = &light_services_,
+      .camera_from_light = spaces.camera_from_shader};
+  bind_extent(bound);
+  return bound;
+}
+
+void ShaderBindings::bind_extent(BoundLight& light) const {
+  const LightDefinition& definition = *light.definition;
+  if (definition.distributed()) light.places = spread_places(place_count(light.parameters));
+  if (!definition.measure) return;
   try {
-    light.rate = term_rate(light.parameters.string("shadowrate"));
+    light.extent = definition.measure(light.parameters, light.camera_from_light);
+  } catch (const Error& error) {
+    throw Error(light.where,
+                fmt::format("light \"{}\" can never shine: {}", definition.name, error.what()));
+  }
+}
+
+TermRate ShaderBindings::rate_of(const ShaderCall& call, const BoundLight& light) const {
+  try {
+    return term_rate(light.parameters.string("shadowrate"));
   } catch (const Error& error) {
     diagnostics().warn_once(fmt::format("shadowrate of {}", call.name), call.where,
                             fmt::format("light \"{}\": {}; cell is used", call.name, error.what()));
+    return TermRate::cell;
   }
-  const std::string& file = light.parameters.string("shadowname");
-  if (file.empty()) return;
-  light.shadow = &shadows_.source(file, call.where);
-  if (light.rate == TermRate::cell) return;
-  light.term = term_lights_.size();
-  term_lights_.push_back(&light);
+}
+
+void ShaderBindings::bind_shadow(const Light& light, BoundLight& bound) {
+  const LightDefinition& definition = *bound.definition;
+  if (!definition.transmission && !definition.distributed()) return;
+  bound.rate = rate_of(light.shader, bound);
+  if (definition.distributed()) {
+    bound.ray_traced = light.shadow != "off";
+  } else if (const std::string& map = bound.parameters.string("shadowname"); !map.empty()) {
+    bound.ray_traced = map == ray_traced_name;
+    if (!bound.ray_traced) bound.shadow = &shadows_.source(map, light.shader.where);
+  } else {
+    bound.ray_traced = light.shadow == "on";
+  }
+  const bool varies = definition.distributed() || bound.casts_shadows();
+  if (!varies || bound.rate == TermRate::cell) return;
+  bound.term = term_lights_.size();
+  term_lights_.push_back(&bound);
+}
+
+void ShaderBindings::use_rays(std::shared_ptr<const RayTracer> rays) {
+  rays_ = std::move(rays);
+  light_services_.rays = rays_.get();
+  for (size_t i = 0; rays_ && i < lights_.size(); ++i) {
+    if (lights_[i] && setup_.scene->lights[i].area) make_emitter(*rays_, int(i), *lights_[i]);
+  }
+}
+
+bool ShaderBindings::wants_rays() const {
+  return std::ranges::any_of(lights_, [](const std::optional<BoundLight>& light) {
+    return light && (light->ray_traced || light->definition->distributed());
+  });
+}
+
+bool ShaderBindings::has_effect(RayEffect effect) const {
+  return std::ranges::any_of(term_lights_, [&](const BoundLight* light) {
+    return light->definition->distributed() && light->definition->effect == effect;
+  });
 }
 
 std::shared_ptr<ShaderBindings> bind_shaders(const ShadeSetup& setup) {
   return std::make_shared<ShaderBindings>(setup);
 }
 
-bool wants_rays(const ShaderBindings&) { return false; }
+bool wants_rays(const ShaderBindings& bindings) { return bindings.wants_rays(); }
 
-bool has_effect(const ShaderBindings&, RayEffect) { return false; }
+bool has_effect(const ShaderBindings& bindings, RayEffect effect) {
+  return bindings.has_effect(effect);
+}
 
 void use_rays(ShaderBindings& bindings, std::shared_ptr<const RayTracer> rays) {
   bindings.use_rays(std::move(rays));

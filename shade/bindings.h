@@ -28,6 +28,7 @@ struct SurfaceBinding {
   BoundShader surface;
   std::optional<BoundShader> displacement;
   std::vector<const BoundLight*> lights;
+  const BoundLight* shines = nullptr;  ///< the area light that the surface is part of, if any
 };
 
 /// Immutable once made, and thread safe.
@@ -48,10 +49,16 @@ class ShaderBindings {
   size_t light_term_count() const { return term_lights_.size(); }
   /// Those lights, in the order of SurfaceColors::light_terms.
   std::span<const BoundLight* const> term_lights() const { return term_lights_; }
-  /// Before the first point is shaded.
-  void use_rays(std::shared_ptr<const RayTracer> rays) { rays_ = std::move(rays); }
+  /// Before the first point is shaded. Area lights start to shine from the surfaces found there.
+  /// Throws Error, with the place in the scene file, where one has no area.
+  void use_rays(std::shared_ptr<const RayTracer> rays);
   /// Null: there are none.
   const RayTracer* rays() const { return rays_.get(); }
+  bool wants_rays() const;
+  /// Whether samples of lights of that effect are rays of each sample's own.
+  bool has_effect(RayEffect effect) const;
+  /// What lights may call on; without counters.
+  const LightServices& light_services() const { return light_services_; }
   /// Camera units in one world unit.
   float camera_length_of_world() const { return camera_length_of_world_; }
 
@@ -61,7 +68,10 @@ class ShaderBindings {
   BoundShader bind_surface(const Attributes& attributes) const;
   std::optional<BoundShader> bind_displacement(const Attributes& attributes) const;
   void bind_lights();
-  void bind_shadow(const ShaderCall& call, BoundLight& light);
+  std::optional<BoundLight> bind_light(const Light& light, int index) const;
+  void bind_extent(BoundLight& light) const;
+  void bind_shadow(const Light& light, BoundLight& bound);
+  TermRate rate_of(const ShaderCall& call, const BoundLight& light) const;
   ShaderSpaces spaces_of(const ShaderCall& call) const;
 
   ShadeSetup setup_;
@@ -71,6 +81,7 @@ class ShaderBindings {
   std::unique_ptr<FrameTextures> textures_;
   FrameShadows shadows_;
   std::shared_ptr<const RayTracer> rays_;
+  LightServices light_services_;
   std::vector<std::optional<BoundLight>> lights_;  ///< as Scene::lights; empty: does not shine
   std::vector<const BoundLight*> term_lights_;
   std::vector<std::unique_ptr<SurfaceBinding>> bindings_;  ///< in the order surfaces need them
@@ -84,5 +95,9 @@ std::string_view shader_stem(std::string_view name);
 /// is given (coneangle: spotlight; from and to: distantlight; from: pointlight). Null: no guess.
 /// Whatever is not exact is said once.
 const LightDefinition* choose_light(const ShaderCall& call, Diagnostics& diagnostics);
+
+/// The definition that an area light of the scene means, whatever its name, which is said once if
+/// it is not that of an area light.
+const LightDefinition* choose_area_light(const ShaderCall& call, Diagnostics& diagnostics);
 
 }  // namespace tessera

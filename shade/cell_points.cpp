@@ -14,6 +14,8 @@ CellPoints::CellPoints(std::span<const CellPoint> cells, const Camera& camera) {
   points_.Os = Vec3Input::uniform(&attributes.opacity.x);
   points_.camera_from_object =
       camera.camera_from_world(0.0f) * first.surface->world_from_object.at(0.0f);
+  surface_.assign(cells.size(), first.surface->id);
+  points_.surface = surface_.data();
   fill_geometry(cells, camera);
   fill_parameters(cells);
   fill_primvars(cells);

@@ -38,6 +38,7 @@ class CellPoints {
   AlignedVector<float> normal_variance_;
   AlignedVector<float> parameters_;  ///< [u, v, s, t, dsdx, dtdx, dsdy, dtdy][point]
   std::vector<AlignedVector<float>> primvars_;
+  std::vector<int32_t> surface_;
 };
 
 }  // namespace tessera

@@ -27,4 +27,16 @@ const LightDefinition* choose_light(const ShaderCall& call, Diagnostics& diagnos
   return guess;
 }
 
+const LightDefinition* choose_area_light(const ShaderCall& call, Diagnostics& diagnostics) {
+  const LightDefinition* area_light = find_light("arealight");
+  if (shader_stem(call.name) != area_light->name) {
+    diagnostics.warn_once(
+        "area light shader " + call.name, call.where,
+        fmt::format("area light shader \"{}\" is taken as an arealight, which shines along the "
+                    "outward normals of its surfaces",
+                    call.name));
+  }
+  return area_light;
+}
+
 }  // namespace tessera

@@ -44,6 +44,8 @@ GridPoints::GridPoints(const Grid& grid, const Camera& camera, Footprints footpr
     if (primvar.source->name == "Cs") points_.Cs = values;
     if (primvar.source->name == "Os") points_.Os = values;
   }
+  surface_.assign(size_t(points_.count), grid.surface->id);
+  points_.surface = surface_.data();
   fill_incident(grid, camera);
   if (footprints == Footprints::over_micropolygons) fill_footprints(grid);
 }

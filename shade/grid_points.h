@@ -25,6 +25,7 @@ class GridPoints {
   ShadingPoints points_;
   Vec3Array I_, dPdu_, dPdv_, dNdu_, dNdv_;
   AlignedVector<float> st_differences_;  ///< [dsdu, dtdu, dsdv, dtdv][vertex]
+  std::vector<int32_t> surface_;
 };
 
 /// The change of `f` (one value a vertex) over one micropolygon along u and along v: central

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shade/normal_spread.h"
+#include "shade/ray_shadows.h"
 
 namespace tessera {
 namespace {
@@ -30,13 +31,109 @@ void add_specular(const LightSamples& light, const ShadingPoints& points, const 
   }
 }
 
+/// Cl times `share`, one entry a point.
+void scale(std::span<const float> share, Vec3Array& Cl) {
+  for (int i = 0; i < Cl.count(); ++i) Cl.set(i, share[size_t(i)] * Cl[i]);
+}
+
+/// The sums over the lights that gather_light() is filling, and what they are taken at.
+struct Gathering {
+  const ShadingPoints& points;
+  const Vec3Input& N;
+  const ScalarInput* roughness;  ///< null: no specular
+  Shadows shadows;
+  Illumination& out;
+  ShadeCounters& counters;
+
+  /// Whether shadows of `light` are part of what is gathered.
+  bool casts(const BoundLight& light) const {
+    return shadows == Shadows::cast && light.casts_shadows();
+  }
+  void add_directed(const LightSamples& samples) const {
+    add_diffuse(samples, points, N, out.diffuse);
+    if (roughness) add_specular(samples, points, N, *roughness, out.specular);
+  }
+};
+
 /// Multiplies what arrives by the share that nothing blocks.
-void cast_shadows(const BoundLight& light, const ShadingPoints& points, LightSamples& samples,
-                  std::vector<float>& share, ShadeCounters& counters) {
-  share.resize(size_t(points.count));
-  light.definition->transmission(light, points, share);
-  counters.shadow_lookups += uint64_t(points.count);
-  for (int i = 0; i < points.count; ++i) samples.Cl.set(i, share[size_t(i)] * samples.Cl[i]);
+void cast_shadows(const Gathering& gathering, const BoundLight& light, Vec3Array& Cl) {
+  std::vector<float> share(size_t(gathering.points.count));
+  light.definition->transmission(light, gathering.points, share);
+  uint64_t& count = light.shadow ? gathering.counters.shadow_lookups : gathering.counters.rays;
+  count += share.size();
+  scale(share, Cl);
+}
+
+/// Multiplies what arrives from everywhere over the surface by the mean of the shares that arrive
+/// from its places.
+void cast_hemisphere_shadows(const Gathering& gathering, const BoundLight& light,
+                             const ShadingPoints& facing, Vec3Array& Cl) {
+  LightServices services = *light.services;
+  services.counters = &gathering.counters;
+  Vec3Array mean(facing.count);
+  std::vector<glm::vec2> xi(size_t(facing.count));
+  ShareSamples from;
+  for (const glm::vec2& place : light.places) {
+    std::ranges::fill(xi, place);
+    light.definition->share_from(light, facing, xi, services, from);
+    for (int i = 0; i < facing.count; ++i) mean.add(i, from.share[i]);
+  }
+  const float weight = 1.0f / float(light.places.size());
+  for (int i = 0; i < facing.count; ++i) Cl.set(i, weight * mean[i] * Cl[i]);
+}
+
+/// A light without extent, or one from everywhere over the surface.
+void gather_whole(const Gathering& gathering, const BoundLight& light) {
+  const ShadingPoints& points = gathering.points;
+  ShadingPoints facing = points;
+  facing.N = gathering.N;
+  LightSamples samples{Vec3Array(points.count), Vec3Array(points.count)};
+  const LightDefinition& definition = *light.definition;
+  definition.illuminate(light.parameters, definition.hemisphere ? facing : points, samples);
+  gathering.counters.light_evaluations += uint64_t(points.count);
+  if (gathering.casts(light)) {
+    const bool by_places = definition.distributed() && light.services;
+    if (by_places) cast_hemisphere_shadows(gathering, light, facing, samples.Cl);
+    if (definition.transmission) cast_shadows(gathering, light, samples.Cl);
+  }
+  if (!definition.ambient && !definition.hemisphere) return gathering.add_directed(samples);
+  Vec3Array& sum = definition.ambient ? gathering.out.ambient : gathering.out.diffuse;
+  for (int i = 0; i < points.count; ++i) sum.add(i, samples.Cl[i]);
+}
+
+/// No ray need be cast where the whole cell is turned away from the place.
+void leave_out_unlit(const ShadingPoints& points, PlaceSamples& from) {
+  for (int i = 0; i < points.count; ++i) {
+    const glm::vec3 n = points.N[i];
+    const float cosine = mean_clamped_cosine(n, from.arriving.L[i], normal_spread(points, i, n));
+    if (cosine <= 0.0f) from.towards.set(i, glm::vec3(0.0f));
+  }
+}
+
+/// A light with extent: the mean over its places.
+void gather_places(const Gathering& gathering, const BoundLight& light) {
+  ShadingPoints facing = gathering.points;
+  facing.N = gathering.N;
+  PlaceSamples from;
+  PlaceShadows shadows;
+  std::vector<glm::vec2> xi(size_t(facing.count));
+  const float weight = 1.0f / float(light.places.size());
+  const bool casts = gathering.casts(light) && light.services;
+  for (const glm::vec2& place : light.places) {
+    std::ranges::fill(xi, place);
+    from.reset(facing.count);
+    light.definition->illuminate_from(light, facing, xi, from);
+    Vec3Array& Cl = from.arriving.Cl;
+    for (int i = 0; i < facing.count; ++i) Cl.set(i, weight * Cl[i]);
+    if (casts) {
+      leave_out_unlit(facing, from);
+      trace_shadows(light.services->rays, facing, from.towards, light.extent.infinite, shadows);
+      gathering.counters.rays += shadows.rays;
+      scale(shadows.share, Cl);
+    }
+    gathering.add_directed(from.arriving);
+  }
+  gathering.counters.light_evaluations += uint64_t(facing.count) * light.places.size();
 }
 
 }  // namespace
@@ -47,22 +144,13 @@ void gather_light(std::span<const BoundLight* const> lights, const ShadingPoints
   out.ambient.reset(points.count);
   out.diffuse.reset(points.count);
   if (roughness) out.specular.reset(points.count);
-  LightSamples samples;
-  std::vector<float> share;
+  const Gathering gathering{points, N, roughness, shadows, out, counters};
   for (const BoundLight* light : lights) {
-    samples.L.reset(points.count);
-    samples.Cl.reset(points.count);
-    light->definition->illuminate(light->parameters, points, samples);
-    counters.light_evaluations += uint64_t(points.count);
-    if (light->shadow && shadows == Shadows::cast) {
-      cast_shadows(*light, points, samples, share, counters);
+    if (light->definition->illuminate_from) {
+      gather_places(gathering, *light);
+    } else {
+      gather_whole(gathering, *light);
     }
-    if (light->definition->ambient) {
-      for (int i = 0; i < points.count; ++i) out.ambient.add(i, samples.Cl[i]);
-      continue;
-    }
-    add_diffuse(samples, points, N, out.diffuse);
-    if (roughness) add_specular(samples, points, N, *roughness, out.specular);
   }
 }
 

@@ -21,8 +21,9 @@ struct Illumination {
 enum class Shadows { cast, left_out };
 
 /// Gathers light on surfaces with unit normals `N` that face the eye. `roughness` null: no
-/// specular. Adds to `counters` one light evaluation for each point and light, and one shadow
-/// look-up where a shadow was cast.
+/// specular. Lights with extent are summed over their places. Adds to `counters` one light
+/// evaluation for each point and light or place of it, and one shadow look-up or ray for each
+/// shadow that was cast.
 void gather_light(std::span<const BoundLight* const> lights, const ShadingPoints& points,
                   const Vec3Input& N, const ScalarInput* roughness, Shadows shadows,
                   Illumination& out, ShadeCounters& counters);

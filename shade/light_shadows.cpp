@@ -3,23 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shade/mathematics.h"
+#include "shade/ray_shadows.h"
 #include "shade/shadow_source.h"
 
 namespace tessera {
-
-std::vector<ParameterDeclaration> with_shadow_parameters(std::vector<ParameterDeclaration> own) {
-  const ParameterDeclaration shadow[] = {
-      string_parameter("shadowname", "", "depth map from the light; empty: no shadows"),
-      scalar_parameter("samples", 16.0f, "places of the map compared for a point"),
-      scalar_parameter("width", 1.0f, "of the filter, in shading cells"),
-      scalar_parameter("blur", 0.0f, "further width of the filter, share of the map"),
-      scalar_parameter("bias", 0.0f,
-                       "how much nearer than the surface a blocker must be, "
-                       "besides a texel"),
-      string_parameter("shadowrate", "cell", "shadows once a cell, pixel or sample")};
-  own.insert(own.end(), std::begin(shadow), std::end(shadow));
-  return own;
-}
+namespace {
 
 void shadow_map_transmission(const BoundLight& light, const ShadingPoints& points,
                              std::span<float> share) {
@@ -31,6 +20,49 @@ void shadow_map_transmission(const BoundLight& light, const ShadingPoints& point
                             std::max(0.0f, finite("width", 1.0f)),
                             std::max(0.0f, finite("blur", 0.0f)), finite("bias", 0.0f)};
   light.shadow->light_share(points, filter, share);
+}
+
+void ray_transmission(const BoundLight& light, const ShadingPoints& points,
+                      const Vec3Array& towards, bool infinite, std::span<float> share) {
+  PlaceShadows shadows;
+  const RayTracer* tracer = light.services ? light.services->rays : nullptr;
+  trace_shadows(tracer, points, towards, infinite, shadows);
+  std::ranges::copy(shadows.share, share.begin());
+}
+
+}  // namespace
+
+std::vector<ParameterDeclaration> with_shadow_parameters(std::vector<ParameterDeclaration> own) {
+  const ParameterDeclaration shadow[] = {
+      string_parameter("shadowname", "",
+                       "depth map from the light, or raytrace; empty: no shadows"),
+      scalar_parameter("samples", 16.0f, "places of the map compared for a point"),
+      scalar_parameter("width", 1.0f, "of the filter, in shading cells"),
+      scalar_parameter("blur", 0.0f, "further width of the filter, share of the map"),
+      scalar_parameter("bias", 0.0f,
+                       "how much nearer than the surface a blocker must be, "
+                       "besides a texel"),
+      string_parameter("shadowrate", "cell", "shadows once a cell, pixel or sample")};
+  own.insert(own.end(), std::begin(shadow), std::end(shadow));
+  return own;
+}
+
+void transmission_from_point(const BoundLight& light, const ShadingPoints& points,
+                             std::span<float> share) {
+  if (!light.ray_traced) return shadow_map_transmission(light, points, share);
+  const glm::vec3 from = light.parameters.vec3("from");
+  Vec3Array towards(points.count);
+  for (int i = 0; i < points.count; ++i) towards.set(i, from - points.P[i]);
+  ray_transmission(light, points, towards, false, share);
+}
+
+void transmission_from_distance(const BoundLight& light, const ShadingPoints& points,
+                                std::span<float> share) {
+  if (!light.ray_traced) return shadow_map_transmission(light, points, share);
+  const glm::vec3 L = unit_or_zero(light.parameters.vec3("from") - light.parameters.vec3("to"));
+  Vec3Array towards(points.count);
+  for (int i = 0; i < points.count; ++i) towards.set(i, L);
+  ray_transmission(light, points, towards, true, share);
 }
 
 TermRate term_rate(std::string_view name) {

@@ -1,5 +1,5 @@
 #pragma once
-/// What lights with shadow maps have in common.
+/// What lights without extent have in common that may cast shadows, by depth maps or by rays.
 
 #include "shade/light.h"
 
@@ -8,9 +8,16 @@ namespace tessera {
 /// `own` followed by shadowname, samples, width, blur, bias and shadowrate.
 std::vector<ParameterDeclaration> with_shadow_parameters(std::vector<ParameterDeclaration> own);
 
-/// The transmission of a light that declares those.
-void shadow_map_transmission(const BoundLight& light, const ShadingPoints& points,
+/// The transmission of lights that declare those and a point "from": by rays if the light is
+/// BoundLight::ray_traced, otherwise by its BoundLight::shadow.
+void transmission_from_point(const BoundLight& light, const ShadingPoints& points,
                              std::span<float> share);
+/// Of lights that shine in parallel from "from" to "to".
+void transmission_from_distance(const BoundLight& light, const ShadingPoints& points,
+                                std::span<float> share);
+
+/// A "shadowname" that stands for rays instead of a file.
+inline constexpr std::string_view ray_traced_name = "raytrace";
 
 /// The rates that "shadowrate" may name, as a light's parameters give it. Throws Error that lists
 /// the choices.

@@ -2,6 +2,8 @@
 /// Small functions shared by shaders and lights.
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <glm/glm.hpp>
 
@@ -22,6 +24,24 @@ inline float smoothstep(float low, float high, float x) {
 inline glm::vec3 unit_or_zero(const glm::vec3& v) {
   const float length = glm::length(v);
   return length > 0.0f ? v / length : glm::vec3(0.0f);
+}
+
+/// Two unit vectors at right angles to the unit vector `n` and to each other (T. Duff et al.,
+/// "Building an orthonormal basis, revisited", JCGT 2017).
+inline std::pair<glm::dvec3, glm::dvec3> tangents(const glm::dvec3& n) {
+  const double sign = std::copysign(1.0, n.z), a = -1.0 / (sign + n.z), b = n.x * n.y * a;
+  return {{1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
+}
+
+/// The unit square onto the unit disc, area kept: squares about the middle become circles
+/// (P. Shirley, K. Chiu, "A low distortion map between disk and square", JGT 1997).
+inline glm::vec2 disc_from_square(const glm::vec2& xi) {
+  const glm::vec2 at = 2.0f * xi - 1.0f;
+  if (at == glm::vec2(0.0f)) return at;
+  const bool across = std::abs(at.x) > std::abs(at.y);
+  const float radius = across ? at.x : at.y;
+  const float angle = across ? pi / 4.0f * (at.y / at.x) : pi / 2.0f - pi / 4.0f * (at.x / at.y);
+  return radius * glm::vec2(std::cos(angle), std::sin(angle));
 }
 
 }  // namespace tessera

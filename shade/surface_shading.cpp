@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shade/extended_light.h"
+
 namespace tessera {
 namespace {
 
@@ -42,6 +44,16 @@ uint64_t drop_nonfinite(const ShadingPoints& points, FailedPoint failed, Surface
   return dropped;
 }
 
+/// Adds what a surface that is part of a light sends towards the eye itself.
+void add_own_light(const BoundLight& light, const ShadingPoints& points, SurfaceColors& out) {
+  const glm::vec3 radiance = radiance_of(light.parameters);
+  const bool double_sided = light.parameters.scalar("doublesided") != 0.0f;
+  for (int i = 0; i < points.count; ++i) {
+    const bool faces_eye = glm::dot(points.N[i], points.I[i]) < 0.0f;
+    if (faces_eye || double_sided) out.Ci.add(i, radiance * out.Oi[i]);
+  }
+}
+
 }  // namespace
 
 void shade_surface(const ShaderBindings& bindings, const SurfaceBinding& surface,
@@ -55,6 +67,7 @@ void shade_surface(const ShaderBindings& bindings, const SurfaceBinding& surface
   const ShaderContext context(surface.surface, points,
                               {surface.lights, &bindings.textures(), &counters});
   definition.surface(context, out);
+  if (surface.shines) add_own_light(*surface.shines, points, out);
   counters.points_shaded += uint64_t(points.count);
   const uint64_t dropped = drop_nonfinite(points, failed, out);
   if (dropped == 0) return;

@@ -11,9 +11,10 @@ enum class FailedPoint {
   unseen  ///< NaN in Ci: the film leaves out every sample that sees it
 };
 
-/// Fills `out` with finite colours and opacities in [0, 1]. A point where the shader gave a value
-/// that is not finite is dropped: it gets the surface's own opacity and the colour that `failed`
-/// says; it is counted, and the shader named once.
+/// Runs the shader, and adds to Ci what surfaces that are part of an area light send out, which is
+/// in no light term. Fills `out` with finite colours and opacities in [0, 1]. A point where the
+/// shader gave a value that is not finite is dropped: it gets the surface's own opacity and the
+/// colour that `failed` says; it is counted, and the shader named once.
 void shade_surface(const ShaderBindings& bindings, const SurfaceBinding& surface,
                    const ShadingPoints& points, FailedPoint failed, SurfaceColors& out,
                    ShadeCounters& counters);

@@ -28,7 +28,7 @@ LightDefinition light_distantlight() {
                point_parameter("to", {0, 0, 1}, "... towards here")}),
           .ambient = false,
           .illuminate = illuminate,
-          .transmission = shadow_map_transmission};
+          .transmission = transmission_from_distance};
 }
 
 }  // namespace tessera

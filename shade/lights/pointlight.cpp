@@ -27,7 +27,7 @@ LightDefinition light_pointlight() {
                                       point_parameter("from", {0, 0, 0}, "place of the light")}),
           .ambient = false,
           .illuminate = illuminate,
-          .transmission = shadow_map_transmission};
+          .transmission = transmission_from_point};
 }
 
 }  // namespace tessera

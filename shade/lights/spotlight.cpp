@@ -46,7 +46,7 @@ LightDefinition light_spotlight() {
                scalar_parameter("beamdistribution", 2.0f, "power of the cosine off the axis")}),
           .ambient = false,
           .illuminate = illuminate,
-          .transmission = shadow_map_transmission};
+          .transmission = transmission_from_point};
 }
 
 }  // namespace tessera

@@ -67,17 +67,6 @@ TEST_CASE("unknown displacements are skipped, and a surface name is no displacem
   CHECK(test.warned("unknown displacement shader \"plastic\""));
 }
 
-TEST_CASE("area lights are left dark and say so") {
-  TestScene test;
-  test.add_light(call("pointlight"), true);
-  test.add_light(call("pointlight"), true);
-  const Surface& surface = test.add_surface("matte");
-  const auto bindings = test.bind();
-  CHECK(bindings->of(*surface.attributes).lights.empty());
-  REQUIRE(test.diagnostics.lines().size() == 1);
-  CHECK(test.warned("area lights"));
-}
-
 TEST_CASE("points and vectors of parameters go through shader and camera space") {
   glm::dmat4 camera_from_world(1.0), world_from_shader(1.0);
   camera_from_world[3] = {0, 0, 10, 1};

@@ -1,0 +1,164 @@
+#include "shade/extended_light.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "shade/mathematics.h"
+#include "shade/ray_shadows.h"
+#include "shade/receiver_frame.h"
+#include "shade/shade.h"
+
+namespace tessera {
+namespace {
+
+constexpr float steepest_slope = 1e6f;
+
+/// Normals turned towards the eye, as surface shaders turn them.
+Vec3Array facing_normals(const ShadingPoints& points, const Camera* camera) {
+  Vec3Array facing(points.count);
+  const bool perspective = !camera || camera->perspective();
+  for (int i = 0; i < points.count; ++i) {
+    const glm::vec3 n = points.N[i], from_eye = perspective ? points.P[i] : glm::vec3(0, 0, 1);
+    facing.set(i, glm::dot(n, from_eye) > 0.0f ? -n : n);
+  }
+  return facing;
+}
+
+/// Cl cos of entry i.
+glm::vec3 received(const LightSamples& samples, const Vec3Input& N, int i) {
+  return samples.Cl[i] * std::max(0.0f, glm::dot(N[i], samples.L[i]));
+}
+
+/// The mean of Cl cos over the light's places at each point.
+Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points) {
+  Vec3Array mean(points.count);
+  PlaceSamples from;
+  std::vector<glm::vec2> xi(size_t(points.count));
+  const float weight = 1.0f / float(light.places.size());
+  for (const glm::vec2& place : light.places) {
+    std::ranges::fill(xi, place);
+    from.reset(points.count);
+    light.definition->illuminate_from(light, points, xi, from);
+    for (int i = 0; i < points.count; ++i) {
+      mean.add(i, weight * received(from.arriving, points.N, i));
+    }
+  }
+  return mean;
+}
+
+/// `part` / `whole`, and 0 where the whole is 0.
+glm::vec3 ratio(const glm::vec3& part, const glm::vec3& whole) {
+  glm::vec3 result(0.0f);
+  for (int c = 0; c < 3; ++c) {
+    const float quotient = part[c] / whole[c];
+    if (std::isfinite(quotient)) result[c] = quotient;
+  }
+  return result;
+}
+
+float slope_of(float blocker, bool infinite) {
+  if (!std::isfinite(blocker)) return std::numeric_limits<float>::quiet_NaN();
+  if (infinite) return std::max(blocker, 0.0f);
+  // With distances in units of d1: d1 / d2 - 1 = 1 / (1 - blocker) - 1.
+  const float beyond = 1.0f - blocker;
+  return beyond > 0.0f ? std::clamp(blocker / beyond, 0.0f, steepest_slope) : steepest_slope;
+}
+
+void fill_coordinates(const BoundLight& light, const ShadingPoints& points,
+                      const PlaceSamples& from, const Camera& camera, ShareSamples& out) {
+  for (int i = 0; i < points.count; ++i) {
+    const glm::vec3 P = points.P[i], N = points.N[i];
+    ReceiverFrame frame = ReceiverFrame::at(camera, P, N);
+    if (!light.extent.infinite) {
+      frame = frame.projected_along(unit_or_zero(light.extent.centre - P), N);
+    }
+    const EffectCoordinate at =
+        effect_coordinate(frame.pixels(from.offset[i]), reach_of(light.extent, frame));
+    for (size_t axis = 0; axis < 2; ++axis) {
+      out.y[axis][size_t(i)] = at.y[int(axis)];
+      out.extent[axis][size_t(i)] = at.extent[int(axis)];
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<ParameterDeclaration> with_extent_parameters(std::vector<ParameterDeclaration> own) {
+  const ParameterDeclaration common[] = {
+      scalar_parameter("intensity", 1.0f, "multiplies the colour to give radiance"),
+      color_parameter("lightcolor", glm::vec3(1.0f), "colour"),
+      scalar_parameter("samples", 16.0f,
+                       "places of the light that it is summed over, and shadow rays at rate cell"),
+      string_parameter("shadowrate", "sample", "shadows once a cell, pixel or sample")};
+  own.insert(own.end(), std::begin(common), std::end(common));
+  return own;
+}
+
+glm::vec3 radiance_of(const BoundParameters& parameters) {
+  return parameters.scalar("intensity") * parameters.vec3("lightcolor");
+}
+
+std::vector<glm::vec2> spread_places(int count) {
+  const auto n = uint32_t(std::max(count, 1));
+  const int bits = std::bit_width(n - 1);  // 2^bits >= n
+  std::vector<glm::vec2> places;
+  for (uint32_t k = 0; k < n; ++k) {
+    uint32_t reversed = 0;
+    for (int b = 0; b < bits; ++b) reversed |= (k >> b & 1u) << (bits - 1 - b);
+    places.emplace_back((float(k) + 0.5f) / float(n),
+                        (float(reversed) + 0.5f) / float(uint32_t(1) << bits));
+  }
+  return places;
+}
+
+int place_count(const BoundParameters& parameters) {
+  const float asked = parameters.scalar("samples");
+  return std::isfinite(asked) ? int(std::clamp(std::round(asked), 1.0f, 4096.0f)) : 16;
+}
+
+void set_place(const BoundLight& light, const glm::vec3& P, const LightPlace& place,
+               const glm::vec3& radiance, bool double_sided, int i, PlaceSamples& out) {
+  const glm::vec3 towards = place.at - P;
+  const float distance = glm::length(towards);
+  out.offset.set(i, place.at - light.extent.centre);
+  if (!(distance > 0.0f) || !std::isfinite(distance)) return;  // on the light, or out of all range
+  const glm::vec3 L = towards / distance;
+  const float cosine = -glm::dot(L, place.normal);
+  const float seen = double_sided ? std::abs(cosine) : cosine;
+  if (!(seen > 0.0f)) return;
+  const float size = light.extent.area_root / distance;
+  const float most = 2.0f * float(light.places.size());
+  out.arriving.L.set(i, L);
+  out.arriving.Cl.set(i, radiance * std::min(size * seen / pi * size, most));
+  out.towards.set(i, towards);
+}
+
+void share_from_extent(const BoundLight& light, const ShadingPoints& given,
+                       std::span<const glm::vec2> xi, const LightServices& services,
+                       ShareSamples& out) {
+  const Vec3Array N = facing_normals(given, services.camera);
+  ShadingPoints points = given;
+  points.N = N;
+  out.reset(points.count);
+  PlaceSamples from;
+  from.reset(points.count);
+  light.definition->illuminate_from(light, points, xi, from);
+  const Vec3Array mean = mean_received(light, points);
+  if (services.camera) fill_coordinates(light, points, from, *services.camera, out);
+  for (int i = 0; i < points.count; ++i) {
+    out.share.set(i, ratio(received(from.arriving, points.N, i), mean[i]));
+    if (out.share[i] == glm::vec3(0.0f)) from.towards.set(i, glm::vec3(0.0f));  // casts no ray
+  }
+  if (!light.ray_traced) return;
+  PlaceShadows shadows;
+  trace_shadows(services.rays, points, from.towards, light.extent.infinite, shadows);
+  if (services.counters) services.counters->rays += shadows.rays;
+  for (int i = 0; i < points.count; ++i) {
+    const size_t k = size_t(i);
+    out.share.set(i, shadows.share[k] * out.share[i]);
+    out.slope[k] = slope_of(shadows.distance[k], light.extent.infinite);
+  }
+}
+
+}  // namespace tessera

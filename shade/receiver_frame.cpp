@@ -1,0 +1,67 @@
+#include "shade/receiver_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tessera {
+namespace {
+
+/// Sine of the smallest angle between light and surface that shadows are carried along.
+constexpr float least_sine = 0.05f;
+
+bool all_finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+ReceiverFrame ReceiverFrame::at(const Camera& camera, const glm::vec3& P, const glm::vec3& N) {
+  const RasterClipMap& map = camera.raster_clip();
+  const float w = camera.raster_clip_from_camera(P).z;
+  if (!(w > 0.0f)) return {};
+  // raster x = x_scale * x / W + x_from_w, where W depends on z alone.
+  const float dw = map.w_from_z / w;
+  const glm::vec3 of_raster[] = {map.x_scale / w * glm::vec3(1.0f, 0.0f, -P.x * dw),
+                                 map.y_scale / w * glm::vec3(0.0f, 1.0f, -P.y * dw)};
+  ReceiverFrame frame;
+  for (size_t axis = 0; axis < 2; ++axis) {
+    frame.row[axis] = of_raster[axis] - N * glm::dot(N, of_raster[axis]);
+    if (!all_finite(frame.row[axis])) return {};
+  }
+  return frame;
+}
+
+ReceiverFrame ReceiverFrame::projected_along(const glm::vec3& L, const glm::vec3& N) const {
+  const float sine = glm::dot(N, L);
+  const float bounded = std::copysign(std::max(std::abs(sine), least_sine), sine);
+  // row . (Y - L (N . Y) / (N . L)), as a row for Y.
+  ReceiverFrame frame;
+  for (size_t axis = 0; axis < 2; ++axis) {
+    frame.row[axis] = row[axis] - N * (glm::dot(row[axis], L) / bounded);
+  }
+  return frame;
+}
+
+EffectCoordinate effect_coordinate(const glm::vec2& pixels, const glm::vec2& reach) {
+  EffectCoordinate coordinate;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (!(reach[axis] > 0.0f) || !std::isfinite(reach[axis])) continue;
+    const float y = pixels[axis] / reach[axis];
+    if (!std::isfinite(y)) continue;
+    coordinate.extent[axis] = reach[axis];
+    coordinate.y[axis] = std::clamp(y, -1.0f, 1.0f);
+  }
+  return coordinate;
+}
+
+glm::vec2 reach_of(const LightExtent& extent, const ReceiverFrame& frame) {
+  if (extent.infinite) return frame.reach_of_unit_disc();
+  glm::vec2 sum(0.0f);
+  for (const glm::vec3& half_axis : extent.half_axes) {
+    const glm::vec2 q = glm::abs(frame.pixels(half_axis));
+    sum += extent.round ? q * q : q;
+  }
+  return extent.round ? glm::sqrt(sum) : sum;
+}
+
+}  // namespace tessera
