@@ -1,6 +1,7 @@
 #pragma once
 /// Linear systems.
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -2,6 +2,7 @@
 /// Integrals of smooth functions.
 
 #include <array>
+#include <cstddef>
 
 namespace tessera {
 

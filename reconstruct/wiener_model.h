@@ -11,6 +11,7 @@
 /// cov(f(a) - t, f(b) - t) = -gamma(a - b) + mean gamma(a - t) + mean gamma(b - t) - mean gamma(t -
 /// t).
 
+#include <cstddef>
 #include <vector>
 
 namespace tessera {

@@ -1,6 +1,7 @@
 #pragma once
 /// The best linear filters of wiener_model.h over wedges and sample counts, interpolated.
 
+#include <cstddef>
 #include <vector>
 
 #include "reconstruct/method.h"
