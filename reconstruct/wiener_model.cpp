@@ -11,44 +11,51 @@
 namespace tessera {
 namespace {
 
-constexpr int max_degree = 13;
+constexpr double length = wiener_pattern_length;
 
-/// gamma integrated from 0 twice and three times; even and odd.
+/// gamma integrated from 0 twice and three times, r >= 0.
 struct GammaIntegrals {
   double second, third;
 };
 GammaIntegrals gamma_integrals(double r) {
-  constexpr double length = wiener_pattern_length;
-  const double a = std::abs(r);
-  const double first = a - length * -std::expm1(-a / length);
-  const double second = 0.5 * a * a - length * first;
-  const double third = a * a * a / 6.0 - length * second;
-  return {length * second, std::copysign(length * third, r)};
+  const double first = r + length * std::expm1(-r / length);
+  const double second = 0.5 * r * r - length * first;
+  return {length * second, length * (r * r * r / 6.0 - length * second)};
 }
 
-/// Both, averaged over the two places within pixels: the mean over a difference of two uniform
-/// numbers is a second difference of the second integral.
-double pixel_gamma(double r) {
-  return gamma_integrals(r + 1).second - 2 * gamma_integrals(r).second +
-         gamma_integrals(r - 1).second;
-}
-double pixel_gamma_integral(double r) {
-  return gamma_integrals(r + 1).third - 2 * gamma_integrals(r).third + gamma_integrals(r - 1).third;
+/// gamma averaged over the two places within pixels, and its integral from 0. The mean over the
+/// difference of two uniform numbers is a second difference of the second integral; where gamma is
+/// smooth that leaves one exponential. Even and odd.
+struct PixelGamma {
+  double value, integral;
+};
+PixelGamma pixel_gamma(double r) {
+  static const double spread = 2.0 * std::cosh(1.0 / length) - 2.0;
+  const double a = std::abs(r);
+  if (a >= 1.0) {
+    const double value = length - length * length * length * spread * std::exp(-a / length);
+    return {value, std::copysign(length * a - length * value, r)};
+  }
+  const GammaIntegrals ahead = gamma_integrals(1.0 + a), here = gamma_integrals(a),
+                       behind = gamma_integrals(1.0 - a);
+  return {ahead.second - 2.0 * here.second + behind.second,
+          std::copysign(ahead.third - 2.0 * here.third - behind.third, r)};
 }
 
 /// The mean of pixel_gamma over [a, b], in any order. Close together, the difference of integrals
 /// would lose its digits; the middle errs by (b - a)^2 / 24 then.
 double mean_gamma(double a, double b) {
-  if (std::abs(b - a) < 1e-3) return pixel_gamma(0.5 * (a + b));
-  return (pixel_gamma_integral(b) - pixel_gamma_integral(a)) / (b - a);
+  if (std::abs(b - a) < 1e-3) return pixel_gamma(0.5 * (a + b)).value;
+  return (pixel_gamma(b).integral - pixel_gamma(a).integral) / (b - a);
 }
 
 /// Coefficients c[l] of P_j P_k = sum over l of c[l] P_l.
-std::array<double, max_degree> product_coefficients(int j, int k) {
-  std::array<double, max_degree> c{}, p{};
+ProductCoefficients product_coefficients(int j, int k) {
+  ProductCoefficients c{};
+  std::array<double, max_product_degrees> p{};
   for (int l = 0; l <= j + k; ++l) {
     c[size_t(l)] = 0.5 * (2 * l + 1) * gauss_integral(-1.0, 1.0, 2, [&](double y) {
-                     legendre(y, max_degree, p.data());
+                     legendre(y, max_product_degrees, p.data());
                      return p[size_t(j)] * p[size_t(k)] * p[size_t(l)];
                    });
   }
@@ -65,9 +72,9 @@ PairStatistics::PairStatistics(double low, double high, int components, int reac
       components_(components),
       reach_(reach),
       values_(size_t((2 * components - 1) * components * (2 * reach + 1))) {
-  // gamma is smooth over a pixel, and bends nowhere else.
+  // Two pixels a panel: errors would show as indefinite matrices at large sample counts.
   const double farthest = std::max(std::abs(low), std::abs(high));
-  const int panels = std::max(2, int(std::ceil(farthest / 2.0)));
+  const int panels = std::max(2, int(std::ceil(farthest)));
   for (int i = 0; i < panels; ++i) {
     for (size_t q = 0; q < gauss_points.size(); ++q)
       add((2.0 * i + 1.0 + gauss_points[q]) / panels, gauss_weights[q] / panels);
@@ -85,7 +92,7 @@ double PairStatistics::operator()(int a, int b, int distance) const {
 void PairStatistics::add(double y_difference, double weight) {
   const int degrees = 2 * components_ - 1;
   std::vector<double> share(size_t(degrees * components_));
-  std::array<double, max_degree> p{}, p_other{};
+  std::array<double, max_product_degrees> p{}, p_other{};
   const double middle = 0.5 * y_difference, half = 1.0 - middle;
   for (size_t q = 0; q < gauss_points.size(); ++q) {
     legendre(middle + half * gauss_points[q], degrees, p.data());
@@ -108,13 +115,15 @@ void PairStatistics::add(double y_difference, double weight) {
 }
 
 WienerSolver::WienerSolver(const PairStatistics& pairs) : pairs_(pairs) {
+  for (int j = 0; j < pairs.components(); ++j)
+    for (int k = 0; k < pairs.components(); ++k) products_.push_back(product_coefficients(j, k));
   for (int k = 0; k < pairs.components(); ++k)
     for (int dx = k % 2; dx <= pairs.reach(); ++dx) unknowns_.push_back({k, dx, sign_of(k)});
   const size_t size = unknowns_.size();
   signal_.resize(size * size);
   noise_.resize(size * size);
   for (size_t a = 0; a < size; ++a) {
-    for (size_t b = 0; b < size; ++b) {
+    for (size_t b = 0; b <= a; ++b) {
       signal_[a * size + b] = folded_signal(unknowns_[a], unknowns_[b]);
       noise_[a * size + b] = folded_noise(unknowns_[a], unknowns_[b]);
     }
@@ -132,7 +141,7 @@ double WienerSolver::signal(int j, int x, int k, int x_other) const {
 
 /// The mean of P_j P_k (f - t)^2 over single samples of the pixel at x.
 double WienerSolver::one_sample(int j, int k, int x) const {
-  const auto c = product_coefficients(j, k);
+  const ProductCoefficients& c = products_[size_t(j * pairs_.components() + k)];
   double sum = j == k ? -pairs_(0, 0, 0) / (2 * k + 1) : 0.0;
   for (int l = 0; l <= j + k; ++l) sum += 2.0 * c[size_t(l)] * pairs_(l, 0, x);
   return sum;
@@ -173,6 +182,14 @@ std::vector<double> WienerSolver::weights(double samples) const {
     middle[u.dx] = x[a] / sum;
   }
   return out;
+}
+
+double WienerSolver::equivalent_pixels(const std::vector<double>& filter) const {
+  const size_t row = size_t(2 * pairs_.reach() + 1);
+  double noise = 0.0;
+  for (size_t i = 0; i < filter.size(); ++i)
+    noise += filter[i] * filter[i] / double(2 * (i / row) + 1);
+  return 1.0 / noise;
 }
 
 }  // namespace tessera

@@ -11,10 +11,13 @@
 /// cov(f(a) - t, f(b) - t) = -gamma(a - b) + mean gamma(a - t) + mean gamma(b - t) - mean gamma(t -
 /// t).
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
 namespace tessera {
+
+inline constexpr int max_wiener_components = 7;
 
 /// Pixels: the length over which patterns correlate.
 inline constexpr double wiener_pattern_length = 32.0;
@@ -44,12 +47,21 @@ class PairStatistics {
   std::vector<double> values_;  ///< [a][b][distance >= 0]
 };
 
+/// Degrees of products of two of the polynomials.
+inline constexpr int max_product_degrees = 2 * max_wiener_components - 1;
+/// c[l] of P_j P_k = sum over l of c[l] P_l.
+using ProductCoefficients = std::array<double, max_product_degrees>;
+
 /// The weights of the best filter: [k * (2 * reach + 1) + reach + dx]. `samples` a pixel > 0. Those
 /// of P_0 sum to 1, and A_k(-dx) = (-1)^k A_k(dx).
 class WienerSolver {
  public:
   explicit WienerSolver(const PairStatistics& pairs);
   std::vector<double> weights(double samples) const;
+
+  /// Among how many pixels' worth of samples a filter shares noise: 1 / sum of A_k^2 / (2 k + 1),
+  /// as P_k has the mean square 1 / (2 k + 1).
+  double equivalent_pixels(const std::vector<double>& filter) const;
 
  private:
   /// One free number of the filter: the weight of P_k at dx, and by symmetry at -dx.
@@ -64,7 +76,8 @@ class WienerSolver {
 
   const PairStatistics& pairs_;
   std::vector<Unknown> unknowns_;
-  std::vector<double> signal_, noise_;  ///< [unknown][unknown]; noise: of one sample a pixel
+  std::vector<ProductCoefficients> products_;  ///< [j][k]
+  std::vector<double> signal_, noise_;  ///< [unknown][unknown], lower half; noise: of one sample
 };
 
 }  // namespace tessera

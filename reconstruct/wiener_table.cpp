@@ -1,7 +1,9 @@
 #include "reconstruct/wiener_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "reconstruct/wedge.h"
 #include "reconstruct/wiener_model.h"
@@ -14,6 +16,16 @@ double shift_at(int i) { return i == 0 ? 0.0 : 0.5 * std::exp2(0.5 * (i - 1)); }
 double shift_position(double shift) {
   return shift < 0.5 ? 2.0 * shift : 1.0 + 2.0 * std::log2(2.0 * shift);
 }
+
+/// Grid lines of low / high, closer where filters change fast.
+constexpr std::array<double, 13> ratios = {-1.0, -0.7, -0.4, -0.2, 0.0, 0.1, 0.2,
+                                           0.35, 0.5,  0.65, 0.8,  0.9, 1.0};
+double ratio_position(double ratio) {
+  size_t i = 0;
+  while (i + 2 < ratios.size() && ratio >= ratios[i + 1]) ++i;
+  return double(i) + (ratio - ratios[i]) / (ratios[i + 1] - ratios[i]);
+}
+
 double samples_at(int i) { return std::exp2(2.0 * i); }
 double samples_position(double samples) { return 0.5 * std::log2(samples); }
 
@@ -29,22 +41,52 @@ struct GridPlace {
   double of(int i) const { return i == 0 ? 1.0 - share : share; }
 };
 
+/// How many samples a pixel one axis of a product should count on. The other axis, with a filter
+/// like this one, shares noise among E pixels; and half of what a sample differs from the wanted
+/// mean by is due to that other axis. So the axis sees noise as of n' = n E(n') / 2 samples, which
+/// is solved for n' by interpolation: n' / E(n') grows with n'. (Measured in
+/// docs/reconstruction.md.)
+class PooledSamples {
+ public:
+  explicit PooledSamples(const WienerSolver& solver) {
+    for (int i = 0; i < lines; ++i) {
+      const double pooled = pooled_at(i);
+      const double pixels = solver.equivalent_pixels(solver.weights(pooled));
+      log_own_[size_t(i)] = std::log2(2.0 * pooled / pixels);
+    }
+  }
+  double operator()(double own) const {
+    const double wanted = std::log2(own);
+    int i = 0;
+    while (i + 2 < lines && wanted >= log_own_[size_t(i) + 1]) ++i;
+    const double a = log_own_[size_t(i)], b = log_own_[size_t(i) + 1];
+    return pooled_at(i) * std::pow(4.0, std::clamp((wanted - a) / (b - a), 0.0, 1.0));
+  }
+
+ private:
+  static constexpr int lines = 11;
+  static double pooled_at(int i) { return 0.25 * samples_at(i); }
+  std::array<double, size_t(lines)> log_own_{};
+};
+
 }  // namespace
 
-WienerTable::WienerTable(int components)
+WienerTable::WienerTable(int components, int image_axes)
     : components_(components), size_(size_t(components * (2 * reach + 1))) {
   filters_.reserve(size_t(shift_count * ratio_count * samples_count) * size_);
-  for (int i = 0; i < shift_count; ++i) {
-    for (int j = 0; j < ratio_count; ++j) {
-      const double high = std::min(shift_at(i), max_shift);
-      const double ratio = 2.0 * j / (ratio_count - 1) - 1.0;
-      const PairStatistics pairs(ratio * high, high, components, reach);
-      const WienerSolver solver(pairs);
-      for (int k = 0; k < samples_count; ++k) {
-        const std::vector<double> filter = solver.weights(samples_at(k));
-        filters_.insert(filters_.end(), filter.begin(), filter.end());
-      }
-    }
+  for (int i = 0; i < shift_count; ++i)
+    for (double ratio : ratios) add_wedge(ratio * shift_at(i), shift_at(i), image_axes);
+}
+
+void WienerTable::add_wedge(double low, double high, int image_axes) {
+  const PairStatistics pairs(low, high, components_, reach);
+  const WienerSolver solver(pairs);
+  std::optional<PooledSamples> pooled;
+  if (image_axes == 2) pooled.emplace(solver);
+  for (int k = 0; k < samples_count; ++k) {
+    const double samples = pooled ? (*pooled)(samples_at(k)) : samples_at(k);
+    const std::vector<double> filter = solver.weights(samples);
+    filters_.insert(filters_.end(), filter.begin(), filter.end());
   }
 }
 
@@ -53,7 +95,7 @@ void WienerTable::weights(const AxisWedge& wedge, double samples, float* out) co
   const double ratio = turned.high > 0.0 ? std::clamp(turned.low / turned.high, -1.0, 1.0) : 0.0;
   const double bounded_samples = samples >= 1.0 ? std::min(samples, max_samples) : 1.0;
   const GridPlace at_shift(shift_position(turned.high), shift_count);
-  const GridPlace at_ratio(0.5 * (ratio + 1.0) * (ratio_count - 1), ratio_count);
+  const GridPlace at_ratio(ratio_position(ratio), ratio_count);
   const GridPlace at_samples(samples_position(bounded_samples), samples_count);
   std::fill(out, out + size_, 0.0f);
   for (int corner = 0; corner < 8; ++corner) {

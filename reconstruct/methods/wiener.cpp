@@ -7,6 +7,7 @@
 
 #include "reconstruct/legendre.h"
 #include "reconstruct/method_arguments.h"
+#include "reconstruct/wiener_model.h"
 #include "reconstruct/wiener_table.h"
 
 namespace tessera {
@@ -24,7 +25,7 @@ class Wiener : public ReconstructionMethod {
 
   void weights(const AxisWedge& wedge, float samples, float* out) const override {
     // Who asks only for the basis or the reach does not wait for the table.
-    std::call_once(once_, [this] { table_.emplace(components_); });
+    std::call_once(once_, [this] { table_.emplace(components_, 2); });
     table_->weights(wedge, samples, out);
   }
 
@@ -35,7 +36,7 @@ class Wiener : public ReconstructionMethod {
 };
 
 std::unique_ptr<ReconstructionMethod> make(std::string_view arguments) {
-  return std::make_unique<Wiener>(odd_components("wiener", arguments, 1, 7, 3));
+  return std::make_unique<Wiener>(odd_components("wiener", arguments, 1, max_wiener_components, 3));
 }
 
 }  // namespace
