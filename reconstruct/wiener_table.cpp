@@ -60,12 +60,12 @@ class PooledSamples {
     int i = 0;
     while (i + 2 < lines && wanted >= log_own_[size_t(i) + 1]) ++i;
     const double a = log_own_[size_t(i)], b = log_own_[size_t(i) + 1];
-    return pooled_at(i) * std::pow(4.0, std::clamp((wanted - a) / (b - a), 0.0, 1.0));
+    return pooled_at(i) * std::pow(16.0, std::clamp((wanted - a) / (b - a), 0.0, 1.0));
   }
 
  private:
-  static constexpr int lines = 11;
-  static double pooled_at(int i) { return 0.25 * samples_at(i); }
+  static constexpr int lines = 6;
+  static double pooled_at(int i) { return 0.25 * samples_at(2 * i); }
   std::array<double, size_t(lines)> log_own_{};
 };
 
