@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "reconstruct/exposure.h"
 #include "reconstruct/pixel_filter.h"
+#include "reconstruct/product_sums.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/sample_block.h"
 #include "reconstruct/sample_sums.h"
@@ -27,7 +29,7 @@ int find_group(const std::vector<const AovDefinition*>& groups, std::string_view
 }
 
 /// Channels that one frame may filter: more than every group together has.
-constexpr size_t max_channels = 64;
+constexpr size_t max_channels = 1024;
 
 void check_channels(const std::vector<const AovDefinition*>& groups) {
   size_t channels = 0;
@@ -47,6 +49,7 @@ class Film::Blocks {
   Image finish();
   FilmCounters counters() const;
   int peak_blocks() const;
+  std::vector<std::vector<float>> take_products() { return std::move(products_); }
 
  private:
   struct Slot {
@@ -78,21 +81,22 @@ class Film::Blocks {
   View view_of(int i, int j);
   void finish_bucket(int i, int j);
   void sum_pixel(int x, int y, const View& view, std::vector<PixelSamples>& pixels);
+  PixelRect footprint(int x, int y) const;
+  void sum_products_of(int x, int y, const View& view, ProductSums& sums);
   void gather_footprint(int x, int y, size_t batch, const View& view,
                         std::vector<PixelSamples>& pixels) const;
   const WeightedBlock* block_of(int x, int y, const View& view) const;
   void take_closest(int x, int y, const WeightedBlock& block);
-  float exposed(float value) const;
 
   FilmSettings settings_;
   FilterTable x_table_, y_table_;
   int depth_group_, color_group_;
   Image image_;
   std::vector<Filtered> filtered_;
+  std::vector<std::vector<float>> products_;  ///< [product][pixel] of image_
   std::vector<std::vector<float*>> planes_;  ///< [group][channel] of image_
   std::vector<Slot> slots_;
-  mutable std::mutex mutex_;      ///< guards slots_ and what follows
-  size_t samples_per_pixel_ = 0;  ///< the same in every bucket
+  mutable std::mutex mutex_;  ///< guards slots_ and what follows
   FilmCounters counters_;
   int held_blocks_ = 0, peak_blocks_ = 0;
 };
@@ -118,6 +122,8 @@ Film::Blocks::Blocks(const FilmSettings& settings)
     for (size_t c = 0; c < group->channels.size(); ++c)
       planes_.back().push_back(image_.channels[next++].values.data());
   }
+  products_.assign(ProductSums(settings_.products).count(),
+                   std::vector<float>(size_t(image_.data_window.pixel_count())));
   slots_.resize(size_t(columns()) * size_t(rows()));
   for (int j = 0; j < rows(); ++j)
     for (int i = 0; i < columns(); ++i)
@@ -146,7 +152,6 @@ void Film::Blocks::for_neighbours(int i, int j, Visit visit) {
 
 void Film::Blocks::add(int i, int j, SampleValues&& values) {
   uint64_t dropped = 0;
-  const size_t samples_per_pixel = size_t(values.samples_per_pixel);
   auto block = std::make_shared<const WeightedBlock>(std::move(values), settings_.groups, x_table_,
                                                      y_table_, dropped);
   std::vector<std::pair<int, int>> ready;
@@ -154,7 +159,6 @@ void Film::Blocks::add(int i, int j, SampleValues&& values) {
     std::lock_guard lock(mutex_);
     slot(i, j).block = std::move(block);
     slot(i, j).arrived = true;
-    samples_per_pixel_ = samples_per_pixel;
     counters_.nonfinite_samples_dropped += dropped;
     peak_blocks_ = std::max(peak_blocks_, ++held_blocks_);
     for_neighbours(i, j, [&](int a, int b) {
@@ -178,6 +182,9 @@ void Film::Blocks::finish_bucket(int i, int j) {
     std::vector<PixelSamples> footprint;
     for (int y = pixels.y0; y < pixels.y1; ++y)
       for (int x = pixels.x0; x < pixels.x1; ++x) sum_pixel(x, y, view, footprint);
+    if (ProductSums sums(settings_.products); sums.count() > 0)
+      for (int y = pixels.y0; y < pixels.y1; ++y)
+        for (int x = pixels.x0; x < pixels.x1; ++x) sum_products_of(x, y, view, sums);
   }
   std::lock_guard lock(mutex_);
   slot(i, j).finished = true;
@@ -189,22 +196,26 @@ void Film::Blocks::finish_bucket(int i, int j) {
   });
 }
 
+PixelRect Film::Blocks::footprint(int x, int y) const {
+  const int x_reach = x_table_.reach_pixels(), y_reach = y_table_.reach_pixels();
+  return PixelRect{x - x_reach, y - y_reach, x + x_reach + 1, y + y_reach + 1}.intersect(sampled());
+}
+
 /// The pixels in the footprint of (x, y) that have samples, in raster order, with the channels of
 /// a batch. The last batch repeats its first channel, and the repeats go nowhere.
 void Film::Blocks::gather_footprint(int x, int y, size_t batch, const View& view,
                                     std::vector<PixelSamples>& pixels) const {
-  const int x_reach = x_table_.reach_pixels(), y_reach = y_table_.reach_pixels();
-  const PixelRect footprint =
-      PixelRect{x - x_reach, y - y_reach, x + x_reach + 1, y + y_reach + 1}.intersect(sampled());
+  const PixelRect near = footprint(x, y);
   pixels.clear();
-  for (int qy = footprint.y0; qy < footprint.y1; ++qy) {
-    for (int qx = footprint.x0; qx < footprint.x1; ++qx) {
+  for (int qy = near.y0; qy < near.y1; ++qy) {
+    for (int qx = near.x0; qx < near.x1; ++qx) {
       const WeightedBlock* block = block_of(qx, qy, view);
       if (!block) continue;
       const size_t first = block->first_sample(qx, qy);
       PixelSamples& pixel = pixels.emplace_back();
       pixel.wx = block->x_weights(x - qx) + first;
       pixel.wy = block->y_weights(y - qy) + first;
+      pixel.count = block->sample_count(qx, qy);
       for (size_t c = 0; c < sum_channels; ++c) {
         const size_t k = batch * sum_channels + c;
         const Filtered& f = filtered_[k < filtered_.size() ? k : batch * sum_channels];
@@ -221,14 +232,28 @@ void Film::Blocks::sum_pixel(int x, int y, const View& view, std::vector<PixelSa
   for (size_t first = 0; first < filtered_.size(); first += sum_channels) {
     gather_footprint(x, y, first / sum_channels, view, pixels);
     double sums[1 + sum_channels];
-    sum_footprint(pixels.data(), pixels.size(), samples_per_pixel_, sums);
+    sum_footprint(pixels.data(), pixels.size(), sums);
     if (std::abs(sums[0]) < 1e-20) return;
     for (size_t k = first; k < std::min(first + sum_channels, filtered_.size()); ++k) {
       const float value = float(sums[1 + k - first] / sums[0]);
       const Filtered& f = filtered_[k];
-      planes_[f.group][f.channel][at] = int(f.group) == color_group_ ? exposed(value) : value;
+      planes_[f.group][f.channel][at] = 
+          int(f.group) == color_group_
+              ? exposed(value, settings_.exposure_gain, settings_.exposure_gamma)
+              : value;
     }
   }
+}
+
+void Film::Blocks::sum_products_of(int x, int y, const View& view, ProductSums& sums) {
+  const PixelRect near = footprint(x, y);
+  sums.clear();
+  for (int qy = near.y0; qy < near.y1; ++qy)
+    for (int qx = near.x0; qx < near.x1; ++qx)
+      if (const WeightedBlock* block = block_of(qx, qy, view)) sums.add(*block, x, y, qx, qy);
+  const std::vector<float>& totals = sums.finish();
+  const size_t at = image_.index(x, y);
+  for (size_t p = 0; p < totals.size(); ++p) products_[p][at] = totals[p];
 }
 
 const WeightedBlock* Film::Blocks::block_of(int x, int y, const View& view) const {
@@ -241,7 +266,7 @@ const WeightedBlock* Film::Blocks::block_of(int x, int y, const View& view) cons
 /// put samples that are not finite at infinite depth.
 void Film::Blocks::take_closest(int x, int y, const WeightedBlock& block) {
   if (depth_group_ < 0) return;
-  const size_t first = block.first_sample(x, y), count = size_t(block.samples_per_pixel());
+  const size_t first = block.first_sample(x, y), count = block.sample_count(x, y);
   const float* z = block.channel(size_t(depth_group_), 0) + first;
   size_t nearest = 0;
   for (size_t k = 1; k < count; ++k)
@@ -251,13 +276,6 @@ void Film::Blocks::take_closest(int x, int y, const WeightedBlock& block) {
     if (settings_.groups[g]->filter == ChannelFilter::closest)
       for (size_t c = 0; c < planes_[g].size(); ++c)
         planes_[g][c][pixel] = block.channel(g, c)[first + nearest];
-}
-
-/// Exposure of the RenderMan interface (3.2, section 4.2.3): (gain * value)^(1 / gamma).
-float Film::Blocks::exposed(float value) const {
-  const float scaled = settings_.exposure_gain * value;
-  if (settings_.exposure_gamma == 1.0f) return scaled;
-  return std::copysign(std::pow(std::abs(scaled), 1.0f / settings_.exposure_gamma), scaled);
 }
 
 Image Film::Blocks::finish() {
@@ -291,6 +309,7 @@ void Film::add_bucket(int i, int j, SampleValues&& values) {
 }
 Image Film::finish() { return blocks_->finish(); }
 FilmCounters Film::counters() const { return blocks_->counters(); }
+std::vector<std::vector<float>> Film::take_products() { return blocks_->take_products(); }
 int Film::peak_blocks() const { return blocks_->peak_blocks(); }
 
 }  // namespace tessera

@@ -45,6 +45,9 @@ class ReconstructionMethod {
   /// Writes A_k(dx) to out[k * (2 * reach() + 1) + reach() + dx] for `samples` samples a pixel.
   /// Finite for any finite wedge; wedges that hold 0 deep inside give (nearly) the pixel alone.
   virtual void weights(const AxisWedge& wedge, float samples, float* out) const = 0;
+  /// Whether its result is blended with the unfiltered image where that has the smaller expected
+  /// error (reconstruct/guard.h); B_0 must be 1 then.
+  virtual bool guarded() const { return false; }
 };
 
 /// A method, one file of reconstruct/methods/ each. `--reconstruct name:arguments` picks and tunes it.

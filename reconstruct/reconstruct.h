@@ -25,8 +25,16 @@ struct SampleValues {
   std::vector<float> x, y;  ///< raster position, pixels
   /// [group][channel * samples + sample], groups as in FilmSettings.
   std::vector<std::vector<float>> groups;
+  /// [channel * samples + sample] Channels that only FilmSettings::products read.
+  std::vector<float> carried;
   /// Only where a method for distribution effects runs.
   DistributionSamples distribution;
+};
+
+/// Sums of products over a pixel's footprint: every factor times every value, both by their place
+/// among the carried channels, filtered as one channel each.
+struct SampleProducts {
+  size_t first_factor = 0, factor_count = 0, first_value = 0, value_count = 0;
 };
 
 struct FilmSettings {
@@ -40,6 +48,7 @@ struct FilmSettings {
   /// nearest of a pixel's own samples gives the value.
   std::vector<const AovDefinition*> groups;
   float exposure_gain = 1, exposure_gamma = 1;  ///< pixel = (gain * value)^(1 / gamma), rgb only
+  std::vector<SampleProducts> products;
 };
 
 struct FilmCounters {
@@ -69,6 +78,9 @@ class Film {
   /// The image over the crop window. Buckets that never arrived are background; pixels whose
   /// footprint reaches into them use what there is.
   Image finish();
+  /// After finish(): [product] the sums of FilmSettings::products over the crop, row after row, in
+  /// the order of products, factors, values. 0 where nothing arrived or the sum is not finite.
+  std::vector<std::vector<float>> take_products();
   FilmCounters counters() const;
   /// Largest number of buckets whose samples were held at once.
   int peak_blocks() const;
@@ -93,6 +105,7 @@ struct ReconstructionSettings {
   DistributionFeatures features;
   int threads = 1;
   size_t memory_bytes = size_t(8) << 30;  ///< for the moments of the whole frame
+  float lens_extent = 1;                  ///< largest |u| and |v| of samples (LensProfile::extent)
 };
 
 /// The whole stage: samples of buckets go in as into Film; with a method for distribution effects

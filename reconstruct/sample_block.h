@@ -19,10 +19,9 @@ class WeightedBlock {
                 const FilterTable& x_table, const FilterTable& y_table, uint64_t& dropped);
 
   const PixelRect& rect() const { return values_.rect; }
-  int samples_per_pixel() const { return values_.samples_per_pixel; }
-  size_t first_sample(int x, int y) const {
-    return (size_t(y - rect().y0) * size_t(rect().width()) + size_t(x - rect().x0)) *
-           size_t(samples_per_pixel());
+  size_t first_sample(int x, int y) const { return first_of(pixel(x, y)); }
+  size_t sample_count(int x, int y) const {
+    return first_of(pixel(x, y) + 1) - first_of(pixel(x, y));
   }
   const float* x_weights(int offset) const { return at(x_weights_, offset + x_reach_); }
   const float* y_weights(int offset) const { return at(y_weights_, offset + y_reach_); }
@@ -30,11 +29,24 @@ class WeightedBlock {
   const float* channel(size_t group, size_t c) const {
     return values_.groups[group].data() + c * sample_count_;
   }
+  /// Carried channel `c`, one value a sample.
+  const float* carried(size_t c) const { return values_.carried.data() + c * sample_count_; }
 
  private:
   const float* at(const std::vector<float>& weights, int row) const {
     return weights.data() + size_t(row) * sample_count_;
   }
+  size_t pixel(int x, int y) const {
+    return size_t(y - rect().y0) * size_t(rect().width()) + size_t(x - rect().x0);
+  }
+  size_t first_of(size_t p) const {
+    return values_.first_of_pixel.empty() ? p * size_t(values_.samples_per_pixel)
+                                          : values_.first_of_pixel[p];
+  }
+  template <class PixelOf>
+  std::vector<float> axis_weights(const std::vector<float>& positions, const FilterTable& table,
+                                  PixelOf pixel_of) const;
+  void even_out_pixels();
   bool finite(size_t sample) const;
   void drop_nonfinite(const std::vector<const AovDefinition*>& groups, uint64_t& dropped);
 
