@@ -192,7 +192,7 @@ class MaafRib : public RibText {
   static std::string plain(const glm::dvec3& v) {
     return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z);
   }
-  static std::string list(const glm::dvec3& v) { return "[" + plain(v) + "]"; }
+  static std::string list(const glm::dvec3& v) { return fmt::format("[{}]", plain(v)); }
   static std::string strength(double radiance, const glm::dvec3& color) {
     return fmt::format("\"float intensity\" [{:.6g}] \"color lightcolor\" {}", radiance,
                        list(color));

@@ -21,6 +21,7 @@ struct Settings {
   std::optional<std::string> hider;    ///< "name" or "name:arguments"
   std::optional<std::string> shading;  ///< "name" or "name:arguments"
   std::optional<std::string> filter;   ///< "name" or "name:XxY", full widths in pixels
+  std::optional<std::string> reconstruct;  ///< "filter", or a method as "name" or "name:arguments"
   std::optional<int> bucket_size;      ///< pixels
   std::optional<int> grid_size;        ///< micropolygons along a side
   std::vector<std::string> aovs;  ///< channel groups; empty: rgb, a, z and those of the displays
