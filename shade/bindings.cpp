@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "shade/bounce_radiance.h"
 #include "shade/light_shadows.h"
 
 namespace tessera {
@@ -135,19 +136,27 @@ void ShaderBindings::bind_lights() {
 }
 
 void ShaderBindings::bind_shadow(const ShaderCall& call, BoundLight& light) {
-  if (!light.definition->transmission) return;
+  const bool distributed = light.definition->distributed();
+  if (!light.definition->transmission && !distributed) return;
   try {
     light.rate = term_rate(light.parameters.string("shadowrate"));
   } catch (const Error& error) {
     diagnostics().warn_once(fmt::format("shadowrate of {}", call.name), call.where,
                             fmt::format("light \"{}\": {}; cell is used", call.name, error.what()));
   }
-  const std::string& file = light.parameters.string("shadowname");
-  if (file.empty()) return;
-  light.shadow = &shadows_.source(file, call.where);
+  if (light.definition->transmission) {
+    const std::string& file = light.parameters.string("shadowname");
+    if (!file.empty()) light.shadow = &shadows_.source(file, call.where);
+  }
+  if (!light.shadow && !distributed) return;
   if (light.rate == TermRate::cell) return;
   light.term = term_lights_.size();
   term_lights_.push_back(&light);
+}
+
+void ShaderBindings::use_rays(std::shared_ptr<const RayTracer> rays) {
+  rays_ = std::move(rays);
+  bounce_ = rays_ ? std::make_shared<const BounceRadiance>(*this, *rays_) : nullptr;
 }
 
 std::shared_ptr<ShaderBindings> bind_shaders(const ShadeSetup& setup) {

@@ -49,9 +49,11 @@ class ShaderBindings {
   /// Those lights, in the order of SurfaceColors::light_terms.
   std::span<const BoundLight* const> term_lights() const { return term_lights_; }
   /// Before the first point is shaded.
-  void use_rays(std::shared_ptr<const RayTracer> rays) { rays_ = std::move(rays); }
+  void use_rays(std::shared_ptr<const RayTracer> rays);
   /// Null: there are none.
   const RayTracer* rays() const { return rays_.get(); }
+  /// What rays find on surfaces; null without rays.
+  const BounceRadiance* bounce() const { return bounce_.get(); }
   /// Camera units in one world unit.
   float camera_length_of_world() const { return camera_length_of_world_; }
 
@@ -71,6 +73,7 @@ class ShaderBindings {
   std::unique_ptr<FrameTextures> textures_;
   FrameShadows shadows_;
   std::shared_ptr<const RayTracer> rays_;
+  std::shared_ptr<const BounceRadiance> bounce_;
   std::vector<std::optional<BoundLight>> lights_;  ///< as Scene::lights; empty: does not shine
   std::vector<const BoundLight*> term_lights_;
   std::vector<std::unique_ptr<SurfaceBinding>> bindings_;  ///< in the order surfaces need them

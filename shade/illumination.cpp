@@ -61,6 +61,10 @@ void gather_light(std::span<const BoundLight* const> lights, const ShadingPoints
       for (int i = 0; i < points.count; ++i) out.ambient.add(i, samples.Cl[i]);
       continue;
     }
+    if (light->definition->hemisphere) {
+      for (int i = 0; i < points.count; ++i) out.diffuse.add(i, samples.Cl[i]);
+      continue;
+    }
     add_diffuse(samples, points, N, out.diffuse);
     if (roughness) add_specular(samples, points, N, *roughness, out.specular);
   }
