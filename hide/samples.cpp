@@ -145,9 +145,38 @@ void SamplePattern::fill(const PixelRect& rect, SampleBlock& block) const {
   for (int y = rect.y0; y < rect.y1; ++y)
     for (int x = rect.x0; x < rect.x1; ++x, first += size_t(samples_per_pixel_))
       fill_pixel(x, y, block, first, points);
+  fill_extras(block);
   // Whole vectors were written; what lies past the last sample must be covered by nothing.
-  for (auto* a : {&block.x, &block.y, &block.u, &block.v, &block.t})
+  for (auto* a : {&block.x, &block.y, &block.u, &block.v, &block.t, &block.light_x, &block.light_y,
+                  &block.bounce_x, &block.bounce_y})
     if (!a->empty()) pad_with_nan(*a, used);
+}
+
+void SamplePattern::fill_extras(SampleBlock& block) const {
+  const auto fill_if = [&](bool wanted, uint32_t pair, auto& a, auto& b) {
+    for (auto* values : {&a, &b}) values->resize(wanted ? block.x.size() : 0);
+    if (wanted) fill_pair(block.rect, pair, a, b);
+  };
+  fill_if(extras_.light, 0, block.light_x, block.light_y);
+  fill_if(extras_.bounce, 1, block.bounce_x, block.bounce_y);
+}
+
+void SamplePattern::fill_pair(const PixelRect& rect, uint32_t pair, AlignedVector<float>& a,
+                              AlignedVector<float>& b) const {
+  const size_t count = size_t(samples_per_pixel_), stride = padded(size_t(1) << index_bits_);
+  AlignedVector<uint32_t> sobol_a(padded(count) + simd_padding), sobol_b(sobol_a.size());
+  size_t first = 0;
+  for (int y = rect.y0; y < rect.y1; ++y) {
+    for (int x = rect.x0; x < rect.x1; ++x, first += count) {
+      const uint32_t seed = hash_combine(seed_of_pixel(seed_, x, y), 0xe87a5u + pair);
+      for (size_t k = 0; k < count; ++k) {
+        const uint32_t index = permuted_index(uint32_t(k), uint32_t(count), seed);
+        sobol_a[k] = sobol_[index], sobol_b[k] = sobol_[stride + index];
+      }
+      scramble_points(sobol_a.data(), count, seed_of_dimension(seed, 1), a.data() + first);
+      scramble_points(sobol_b.data(), count, seed_of_dimension(seed, 2), b.data() + first);
+    }
+  }
 }
 
 void SamplePattern::fill_pixel(int px, int py, SampleBlock& block, size_t first,

@@ -56,8 +56,11 @@ struct SampleTuples {
   bool operator==(const SampleTuples&) const = default;
 };
 
-/// Coordinates that a frame's samples carry for rays of their own. Each pair is a (0, 2)-sequence a
-/// pixel, scrambled apart from the others.
+/// Coordinates that a frame's samples carry for rays of their own. Each pair takes the first
+/// samples_per_pixel points of a (0, 2)-sequence in each pixel, a (0, m, 2)-net where that is a
+/// power of two, scrambled apart from other pixels and pairs. Samples take them in an order of the
+/// pair's own that keeps aligned blocks of a power of two together: samples that follow one another
+/// in time (or in u, or y) are well spread over the pair too, and tell nothing of it.
 struct SampleExtras {
   bool light = false, bounce = false;
 };
@@ -109,6 +112,9 @@ class SamplePattern {
   void fill_free(int x, int y, SampleBlock& block, size_t first, PixelPoints& points) const;
   void fill_tuples(int x, int y, SampleBlock& block, size_t first, PixelPoints& points) const;
   void fill_lines(int x, int y, SampleBlock& block, size_t first, PixelPoints& points) const;
+  void fill_extras(SampleBlock& block) const;
+  void fill_pair(const PixelRect& rect, uint32_t pair, AlignedVector<float>& a,
+                 AlignedVector<float>& b) const;
 
   int samples_per_pixel_;
   uint32_t seed_;

@@ -1,11 +1,17 @@
 #include "shade/aov.h"
 
+#include <cmath>
+
 namespace tessera {
 namespace {
 
 void put(const glm::vec3& v, float* out) { out[0] = v.x, out[1] = v.y, out[2] = v.z; }
 
 void color_of(const CompositedSample& sample, float* out) { put(sample.color, out); }
+void indirect_of(const CompositedSample& sample, float* out) { put(sample.indirect, out); }
+void direct_of(const CompositedSample& sample, float* out) {
+  put(sample.color - sample.indirect, out);
+}
 void opacity_of(const CompositedSample& sample, float* out) { put(sample.opacity, out); }
 void alpha_of(const CompositedSample& sample, float* out) {
   out[0] = (sample.opacity.x + sample.opacity.y + sample.opacity.z) / 3.0f;
@@ -21,12 +27,7 @@ void position_of(const AovInput& input, size_t fragment, float* out) {
 }
 
 void normal_of(const AovInput& input, size_t fragment, float* out) {
-  const FragmentGeometry seen(input.bucket, fragment);
-  const Grid& grid = *seen.grid;
-  const glm::vec3 sum(seen.interpolate(grid.N(0)), seen.interpolate(grid.N(1)),
-                      seen.interpolate(grid.N(2)));
-  const float length = glm::length(sum);
-  put(length > 0.0f ? sum / length : glm::vec3(0.0f), out);
+  put(unit_normal(FragmentGeometry(input.bucket, fragment)), out);
 }
 
 void st_of(const AovInput& input, size_t fragment, float* out) {
@@ -37,14 +38,8 @@ void st_of(const AovInput& input, size_t fragment, float* out) {
 }
 
 void motion_of(const AovInput& input, size_t fragment, float* out) {
-  out[0] = out[1] = 0.0f;
-  const FragmentGeometry seen(input.bucket, fragment);
-  if (seen.grid->key_count() < 2) return;
-  const glm::vec3 open = input.camera.raster_clip_from_camera(seen.P_camera(0.0f));
-  const glm::vec3 close = input.camera.raster_clip_from_camera(seen.P_camera(1.0f));
-  if (!(open.z > 0.0f && close.z > 0.0f)) return;  // at or behind the eye there is no raster place
-  out[0] = close.x / close.z - open.x / open.z;
-  out[1] = close.y / close.z - open.y / open.z;
+  const glm::vec2 shift = raster_motion(FragmentGeometry(input.bucket, fragment), input.camera);
+  out[0] = shift.x, out[1] = shift.y;
 }
 
 void id_of(const AovInput& input, size_t fragment, float* out) {
@@ -71,6 +66,20 @@ std::span<const AovEvaluator> evaluators() {
        color_of,
        nullptr},
       {{"Oi", "opacity", {"Oi.R", "Oi.G", "Oi.B"}, filtered, 0.0f}, opacity_of, nullptr},
+      {{"direct",
+        "colour without what other surfaces brought",
+        {"direct.R", "direct.G", "direct.B"},
+        filtered,
+        0.0f},
+       direct_of,
+       nullptr},
+      {{"indirect",
+        "colour that other surfaces brought, by lights with a shadowrate of pixel or sample",
+        {"indirect.R", "indirect.G", "indirect.B"},
+        filtered,
+        0.0f},
+       indirect_of,
+       nullptr},
       {{"P", "position in camera space, when seen", {"P.x", "P.y", "P.z"}, closest, 0.0f},
        nullptr,
        position_of},
@@ -102,6 +111,25 @@ std::span<const AovEvaluator> evaluators() {
 }
 
 }  // namespace
+
+glm::vec2 raster_motion(const FragmentGeometry& seen, const Camera& camera) {
+  if (seen.grid->key_count() < 2) return glm::vec2(0.0f);
+  const glm::vec3 open = camera.raster_clip_from_camera(seen.P_camera(0.0f));
+  const glm::vec3 close = camera.raster_clip_from_camera(seen.P_camera(1.0f));
+  // At or behind the eye there is no place on the raster.
+  if (!(open.z > 0.0f && close.z > 0.0f)) return glm::vec2(0.0f);
+  const glm::vec2 shift(close.x / close.z - open.x / open.z, close.y / close.z - open.y / open.z);
+  const bool finite = std::isfinite(shift.x) && std::isfinite(shift.y);
+  return finite ? shift : glm::vec2(0.0f);
+}
+
+glm::vec3 unit_normal(const FragmentGeometry& seen) {
+  const Grid& grid = *seen.grid;
+  const glm::vec3 sum(seen.interpolate(grid.N(0)), seen.interpolate(grid.N(1)),
+                      seen.interpolate(grid.N(2)));
+  const float length = glm::length(sum);
+  return length > 0.0f ? sum / length : glm::vec3(0.0f);
+}
 
 const AovEvaluator& evaluator_of(const AovDefinition& definition) {
   const std::string_view name = definition.name;

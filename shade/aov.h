@@ -8,8 +8,9 @@ namespace tessera {
 
 /// A sample after compositing front to back.
 struct CompositedSample {
-  glm::vec3 color{0.0f};    ///< sum of Ci seen through what is in front
-  glm::vec3 opacity{0.0f};  ///< sum of Oi likewise, without that of matte surfaces
+  glm::vec3 color{0.0f};     ///< sum of Ci seen through what is in front
+  glm::vec3 opacity{0.0f};   ///< sum of Oi likewise, without that of matte surfaces
+  glm::vec3 indirect{0.0f};  ///< the part of the colour that bounces of RayEffect::bounce brought
 };
 
 /// What values of surfaces are made from.
@@ -30,6 +31,12 @@ struct AovEvaluator {
   /// all of them, so that what lies still in shading space is not scattered by the blur.
   bool at_opening = false;
 };
+
+/// Raster shift from shutter open to close of the point that a fragment shows, through the lens
+/// centre, pixels; zero where it does not move or has no place on the raster at both ends.
+glm::vec2 raster_motion(const FragmentGeometry& seen, const Camera& camera);
+/// The interpolated unit normal at shutter open, camera space; zero where there is none.
+glm::vec3 unit_normal(const FragmentGeometry& seen);
 
 /// The evaluator behind `definition`, by name. Throws Error when there is none.
 const AovEvaluator& evaluator_of(const AovDefinition& definition);

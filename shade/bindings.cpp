@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "shade/bounce_radiance.h"
 #include "shade/emitter.h"
 #include "shade/extended_light.h"
 #include "shade/light_shadows.h"
@@ -204,7 +205,9 @@ void ShaderBindings::bind_shadow(const Light& light, BoundLight& bound) {
 
 void ShaderBindings::use_rays(std::shared_ptr<const RayTracer> rays) {
   rays_ = std::move(rays);
+  bounce_ = rays_ ? std::make_shared<const BounceRadiance>(*this, *rays_) : nullptr;
   light_services_.rays = rays_.get();
+  light_services_.bounce = bounce_.get();
   for (size_t i = 0; rays_ && i < lights_.size(); ++i) {
     if (lights_[i] && setup_.scene->lights[i].area) make_emitter(*rays_, int(i), *lights_[i]);
   }

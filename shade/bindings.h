@@ -59,6 +59,8 @@ class ShaderBindings {
   bool has_effect(RayEffect effect) const;
   /// What lights may call on; without counters.
   const LightServices& light_services() const { return light_services_; }
+  /// What rays find on surfaces; null without rays.
+  const BounceRadiance* bounce() const { return bounce_.get(); }
   /// Camera units in one world unit.
   float camera_length_of_world() const { return camera_length_of_world_; }
 
@@ -82,6 +84,7 @@ class ShaderBindings {
   FrameShadows shadows_;
   std::shared_ptr<const RayTracer> rays_;
   LightServices light_services_;
+  std::shared_ptr<const BounceRadiance> bounce_;
   std::vector<std::optional<BoundLight>> lights_;  ///< as Scene::lights; empty: does not shine
   std::vector<const BoundLight*> term_lights_;
   std::vector<std::unique_ptr<SurfaceBinding>> bindings_;  ///< in the order surfaces need them

@@ -2,54 +2,22 @@
 #include <limits>
 
 #include "shade/aov.h"
+#include "shade/fragment_layers.h"
 
 namespace tessera {
 namespace {
 
-constexpr size_t nothing = std::numeric_limits<size_t>::max();
-
-struct FragmentRange {
-  size_t begin, end;
-};
-
-FragmentRange fragments_of(const FragmentList& fragments, size_t sample) {
-  return {fragments.first_of_sample[sample], fragments.first_of_sample[sample + 1]};
-}
-
-bool is_matte(const ShadeInput& input, size_t fragment) {
-  return input.grids[input.fragments->grid[fragment]]->attributes().matte;
-}
-
-glm::vec3 at(const std::array<std::vector<float>, 3>& values, size_t fragment) {
-  return {values[0][fragment], values[1][fragment], values[2][fragment]};
-}
-
-/// The "over" operator front to back (T. Porter, T. Duff, "Compositing digital images", SIGGRAPH
-/// 1984), a channel at a time because opacity has three.
+/// The part of the colour that bounces brought is kept apart where there are any.
 CompositedSample composite_sample(const ShadeInput& input, const ShadedFragments& shaded,
                                   FragmentRange range) {
   CompositedSample sum;
-  glm::vec3 through(1.0f);  // share of light from behind that passes what has been met so far
-  for (size_t f = range.begin; f < range.end; ++f) {
-    const glm::vec3 opacity = at(shaded.Oi, f);
-    if (!is_matte(input, f)) {
-      sum.color += through * at(shaded.Ci, f);
-      sum.opacity += through * opacity;
-    }
-    through *= 1.0f - opacity;
-    if (through == glm::vec3(0.0f)) break;  // a failed fragment that nobody sees spoils nothing
-  }
+  const EffectValues& bounce = shaded.effects[size_t(RayEffect::bounce)];
+  for_layers(input, shaded, range, [&](size_t f, const glm::vec3& through) {
+    sum.color += through * color_at(shaded.Ci, f);
+    sum.opacity += through * color_at(shaded.Oi, f);
+    if (!bounce.empty()) sum.indirect += through * color_at(bounce.received, f);
+  });
   return sum;
-}
-
-/// The nearest fragment that is not wholly transparent, unless it is matte.
-size_t nearest_surface(const ShadeInput& input, const ShadedFragments& shaded,
-                       FragmentRange range) {
-  for (size_t f = range.begin; f < range.end; ++f) {
-    if (at(shaded.Oi, f) == glm::vec3(0.0f)) continue;
-    return is_matte(input, f) ? nothing : f;
-  }
-  return nothing;
 }
 
 constexpr size_t largest_group = 4;  // channels
@@ -71,7 +39,7 @@ size_t opening_sample(const SampleBlock& samples, size_t first, std::span<const 
   size_t best = first;
   float least = std::numeric_limits<float>::infinity();
   for (size_t s = first; s < first + size_t(samples.samples_per_pixel); ++s) {
-    if (nearest[s] == nothing) continue;
+    if (nearest[s] == no_fragment) continue;
     const float t = samples.t.empty() ? 0.0f : samples.t[s];
     const float u = samples.u.empty() ? 0.0f : samples.u[s];
     const float v = samples.u.empty() ? 0.0f : samples.v[s];
@@ -122,7 +90,7 @@ void composite(const ShadeInput& input, const ShadedFragments& shaded, const Cam
     const size_t channels = evaluator.definition.channels.size();
     for_samples(samples, channels, out[g], [&](size_t s, float* values) {
       if (evaluator.of_sample) return evaluator.of_sample(composited[s], values);
-      if (nearest[s] != nothing) {
+      if (nearest[s] != no_fragment) {
         return evaluator.of_surface({input, shaded, camera}, nearest[s], values);
       }
       std::fill_n(values, channels, evaluator.definition.background);

@@ -4,6 +4,16 @@
 
 namespace tessera {
 
+KeyBlend::KeyBlend(const Grid& grid, float t) {
+  const std::vector<float>& times = grid.key_times;
+  const int last = grid.key_count() - 1;
+  // The first key at or after t, and the share of it against the key before.
+  after = std::min(last, int(std::lower_bound(times.begin(), times.end(), t) - times.begin()));
+  before = std::max(after - 1, 0);
+  const float span = times[size_t(after)] - times[size_t(before)];
+  share = span > 0.0f ? std::min(1.0f, (t - times[size_t(before)]) / span) : 0.0f;
+}
+
 FragmentGeometry::FragmentGeometry(const ShadeInput& input, size_t fragment) {
   const FragmentList& fragments = *input.fragments;
   grid = input.grids[fragments.grid[fragment]].get();
@@ -15,18 +25,11 @@ FragmentGeometry::FragmentGeometry(const ShadeInput& input, size_t fragment) {
 }
 
 glm::vec3 FragmentGeometry::P_camera(float t) const {
-  const std::vector<float>& times = grid->key_times;
-  const int last = grid->key_count() - 1;
-  // The first key at or after t, and the share of it against the key before.
-  const int after =
-      std::min(last, int(std::lower_bound(times.begin(), times.end(), t) - times.begin()));
-  const int before = std::max(after - 1, 0);
-  const float span = times[size_t(after)] - times[size_t(before)];
-  const float share = span > 0.0f ? std::min(1.0f, (t - times[size_t(before)]) / span) : 0.0f;
+  const KeyBlend at(*grid, t);
   glm::vec3 P;
   for (int axis = 0; axis < 3; ++axis) {
-    const float p0 = interpolate(grid->P(before, axis));
-    P[axis] = share == 0.0f ? p0 : p0 + share * (interpolate(grid->P(after, axis)) - p0);
+    const float p0 = interpolate(grid->P(at.before, axis));
+    P[axis] = at.share == 0.0f ? p0 : p0 + at.share * (interpolate(grid->P(at.after, axis)) - p0);
   }
   return P;
 }

@@ -7,6 +7,25 @@
 
 namespace tessera {
 
+/// The keys of a grid that a shutter time lies between: a value is that of `before` plus `share`
+/// times the difference to `after`.
+struct KeyBlend {
+  int before = 0, after = 0;
+  float share = 0.0f;
+
+  KeyBlend(const Grid& grid, float t);
+};
+
+/// Camera-space position of a vertex between keys.
+inline glm::vec3 vertex_camera(const Grid& grid, int vertex, const KeyBlend& at) {
+  glm::vec3 P;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float p0 = grid.P(at.before, axis)[vertex];
+    P[axis] = at.share == 0.0f ? p0 : p0 + at.share * (grid.P(at.after, axis)[vertex] - p0);
+  }
+  return P;
+}
+
 /// A fragment resolved to the vertices it lies between.
 struct FragmentGeometry {
   const Grid* grid = nullptr;

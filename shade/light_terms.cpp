@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shade/fragment_geometry.h"
-#include "shade/mathematics.h"
+#include "shade/fragment_points.h"
+#include "shade/sample_places.h"
 
 namespace tessera {
 namespace {
@@ -17,15 +17,19 @@ bool is_zero(const Term& term, size_t fragment) {
 
 /// Which fragments of a bucket share a shadow look-up.
 struct LookUps {
-  std::vector<size_t> at;                              ///< [look-up] the fragment it is made at
-  std::vector<std::pair<size_t, size_t>> of_fragment;  ///< (fragment, its look-up)
+  struct User {
+    uint32_t look_up, fragment;
+    auto operator<=>(const User&) const = default;
+  };
+  std::vector<uint32_t> at;  ///< [look-up] the fragment it is made at
+  std::vector<User> users;   ///< by look-up
 };
 
 LookUps each_fragment(const Term& term) {
   LookUps result;
-  for (size_t f = 0; f < term[0].size(); ++f) {
+  for (uint32_t f = 0; f < term[0].size(); ++f) {
     if (is_zero(term, f)) continue;
-    result.of_fragment.emplace_back(f, result.at.size());
+    result.users.push_back({uint32_t(result.at.size()), f});
     result.at.push_back(f);
   }
   return result;
@@ -46,15 +50,17 @@ LookUps each_grid_of_pixel(const ShadeInput& input, const Term& term) {
   const auto samples_per_pixel = uint32_t(input.samples->samples_per_pixel);
   uint32_t pixel = 0;
   size_t first_of_pixel = 0;  // among the look-ups
-  for (size_t f = 0; f < term[0].size(); ++f) {
+  for (uint32_t f = 0; f < term[0].size(); ++f) {
     if (is_zero(term, f)) continue;
     if (const uint32_t here = fragments.sample[f] / samples_per_pixel; here != pixel) {
       pixel = here, first_of_pixel = result.at.size();
     }
-    const auto same_grid = [&](size_t other) { return fragments.grid[other] == fragments.grid[f]; };
+    const auto same_grid = [&](uint32_t other) {
+      return fragments.grid[other] == fragments.grid[f];
+    };
     const auto known =
         std::find_if(result.at.begin() + long(first_of_pixel), result.at.end(), same_grid);
-    result.of_fragment.emplace_back(f, size_t(known - result.at.begin()));
+    result.users.push_back({uint32_t(known - result.at.begin()), f});
     if (known == result.at.end()) {
       result.at.push_back(f);
     } else if (off_centre(*input.samples, fragments.sample[f]) <
@@ -62,90 +68,139 @@ LookUps each_grid_of_pixel(const ShadeInput& input, const Term& term) {
       *known = f;
     }
   }
+  std::ranges::sort(result.users);
   return result;
 }
 
-/// A pixel on a surface seen at a smaller angle than this is taken as seen at this one: its
-/// footprint stays bounded.
-constexpr float least_cosine = 0.05f;
+/// Points of a bucket that a light is asked about at once: enough to hide what a call costs, and
+/// little enough for its arrays to stay in the cache.
+constexpr size_t batch_size = 1024;
 
-/// A fragment's point at shutter open, lifted from its flat triangle to the curved surface that the
-/// normals of its corners tell of: with coarse micropolygons a map made from fine ones would shadow
-/// the triangles. Halfway to the mean of its projections onto the corners' tangent planes, which is
-/// exact for a parabola (compare T. Boubekeur, M. Alexa, "Phong tessellation", SIGGRAPH Asia 2008).
-glm::vec3 lifted_point(const FragmentGeometry& seen) {
-  const Grid& grid = *seen.grid;
-  const glm::vec3 P = seen.P_camera(0.0f);
-  glm::vec3 lift(0.0f);
-  for (size_t k = 0; k < 3; ++k) {
-    const int corner = seen.corner[k];
-    const glm::vec3 Q(grid.P(0, 0)[corner], grid.P(0, 1)[corner], grid.P(0, 2)[corner]);
-    const glm::vec3 N(grid.N(0)[corner], grid.N(1)[corner], grid.N(2)[corner]);
-    lift += seen.weight[k] * glm::dot(Q - P, N) * N;
+/// Cuts look-ups into batches. Calls look_up(fragments) with the fragments that some are made at,
+/// then use(fragment, k) for each fragment that uses the k-th of them.
+template <class LookUp, class Use>
+void for_batches(const LookUps& look_ups, const LookUp& look_up, const Use& use) {
+  auto user = look_ups.users.begin();
+  for (size_t first = 0; first < look_ups.at.size(); first += batch_size) {
+    const size_t count = std::min(batch_size, look_ups.at.size() - first);
+    look_up(std::span(look_ups.at).subspan(first, count));
+    for (; user != look_ups.users.end() && user->look_up < first + count; ++user)
+      use(user->fragment, user->look_up - first);
   }
-  return P + 0.5f * lift;
 }
 
-/// The surface points of fragments at shutter open.
-class FragmentPoints {
- public:
-  /// `pixel_of` null: no footprints.
-  FragmentPoints(const ShadeInput& input, const std::vector<size_t>& fragments,
-                 const Camera* pixel_of)
-      : P_(int(fragments.size())), N_(P_.count()) {
-    for (int i = 0; i < P_.count(); ++i) {
-      const FragmentGeometry seen(input, fragments[size_t(i)]);
-      const Grid& grid = *seen.grid;
-      P_.set(i, lifted_point(seen));
-      N_.set(i, unit_or_zero({seen.interpolate(grid.N(0)), seen.interpolate(grid.N(1)),
-                              seen.interpolate(grid.N(2))}));
-    }
-    points_.count = P_.count();
-    points_.P = P_;
-    points_.N = N_;
-    if (pixel_of) fill_footprints(*pixel_of);
-  }
-  FragmentPoints(const FragmentPoints&) = delete;
-  FragmentPoints& operator=(const FragmentPoints&) = delete;
-
-  const ShadingPoints& points() const { return points_; }
-
- private:
-  void fill_footprints(const Camera& camera) {
-    dPdx_.reset(P_.count()), dPdy_.reset(P_.count());
-    for (int i = 0; i < P_.count(); ++i) {
-      const glm::vec3 P = P_[i], N = N_[i];
-      const glm::vec3 forward(0.0f, 0.0f, 1.0f);
-      const glm::vec3 I = camera.perspective() ? unit_or_zero(P) : forward;
-      const float w = camera.raster_clip_from_camera(P).z;
-      const float cosine = glm::dot(N, I);
-      const float bounded = std::copysign(std::max(std::abs(cosine), least_cosine), cosine);
-      // One pixel sideways at the point's depth, then along the view back to the tangent plane.
-      const auto onto_plane = [&](const glm::vec3& step) {
-        return step - I * (glm::dot(N, step) / bounded);
-      };
-      dPdx_.set(i, onto_plane({w / camera.raster_clip().x_scale, 0.0f, 0.0f}));
-      dPdy_.set(i, onto_plane({0.0f, w / camera.raster_clip().y_scale, 0.0f}));
-    }
-    points_.dPdx = dPdx_;
-    points_.dPdy = dPdy_;
-  }
-
-  Vec3Array P_, N_, dPdx_, dPdy_;
-  ShadingPoints points_;
+/// What the lights of a bucket are applied to.
+struct TermTarget {
+  const ShadeInput& input;
+  const ShaderBindings& bindings;
+  ShadedFragments& shaded;
+  ShadeCounters& counters;
 };
 
-void apply_term(const ShadeInput& input, const BoundLight& light, const Camera& camera,
-                const Term& term, std::array<std::vector<float>, 3>& Ci, ShadeCounters& counters) {
+LookUps look_ups_of(const ShadeInput& input, const BoundLight& light, const Term& term) {
+  return light.rate == TermRate::pixel ? each_grid_of_pixel(input, term) : each_fragment(term);
+}
+
+/// A light of one direction a point: shadow maps were made at shutter open, rays are cast when the
+/// sample saw the point.
+void apply_transmission(const TermTarget& to, const BoundLight& light, const Term& term) {
+  const PointTime when = light.ray_traced ? PointTime::of_sample : PointTime::shutter_open;
   const bool by_pixel = light.rate == TermRate::pixel;
-  const LookUps look_ups = by_pixel ? each_grid_of_pixel(input, term) : each_fragment(term);
-  const FragmentPoints seen(input, look_ups.at, by_pixel ? &camera : nullptr);
-  std::vector<float> share(look_ups.at.size());
-  light.definition->transmission(light, seen.points(), share);
-  counters.shadow_lookups += share.size();
-  for (const auto& [fragment, look_up] : look_ups.of_fragment) {
-    for (size_t c = 0; c < 3; ++c) Ci[c][fragment] += share[look_up] * term[c][fragment];
+  std::vector<float> share;
+  const auto look_up = [&](std::span<const uint32_t> fragments) {
+    const FragmentPoints seen(to.input, fragments, when, to.bindings.camera(), by_pixel);
+    share.resize(fragments.size());
+    light.definition->transmission(light, seen.points(), share);
+    (light.ray_traced ? to.counters.rays : to.counters.shadow_lookups) += share.size();
+  };
+  for_batches(look_ups_of(to.input, light, term), look_up, [&](uint32_t fragment, size_t k) {
+    for (size_t c = 0; c < 3; ++c) to.shaded.Ci[c][fragment] += share[k] * term[c][fragment];
+  });
+}
+
+/// Relative luminance of linear Rec. 709.
+float luminance(const Term& term, size_t fragment) {
+  return 0.2126f * term[0][fragment] + 0.7152f * term[1][fragment] + 0.0722f * term[2][fragment];
+}
+
+/// An effect in a bucket while its lights are added one after the other.
+struct EffectSum {
+  EffectValues* values;
+  std::vector<float> brightest;  ///< [fragment] of the lights so far
+  size_t lights = 0;
+
+  void describe(const ShareSamples& shares, const Term& term, uint32_t fragment, size_t k) {
+    const float brightness = luminance(term, fragment);
+    if (!(brightness > brightest[fragment])) return;
+    brightest[fragment] = brightness;
+    for (size_t axis = 0; axis < 2; ++axis) {
+      values->y[axis][fragment] = shares.y[axis][k];
+      values->extent[axis][fragment] = shares.extent[axis][k];
+    }
+    values->slope[fragment] = shares.slope[k];
   }
+};
+
+/// The share that look-up k found; nothing where that is not finite, which is counted.
+glm::vec3 finite_share(const ShareSamples& shares, size_t k, ShadeCounters& counters) {
+  const glm::vec3 share = shares.share[int(k)];
+  if (std::isfinite(share.x) && std::isfinite(share.y) && std::isfinite(share.z)) return share;
+  ++counters.nonfinite_dropped;
+  return glm::vec3(0.0f);
+}
+
+/// A light that each sample has a place of its own on.
+void apply_distributed(const TermTarget& to, const BoundLight& light, const Term& term,
+                       EffectSum& sum) {
+  const LookUps look_ups = look_ups_of(to.input, light, term);
+  const size_t number = sum.lights++;
+  if (look_ups.at.empty()) return;
+  const SamplePlaces places(*to.input.samples, light.definition->effect, number);
+  const LightServices services{.camera = &to.bindings.camera(),
+                               .rays = to.bindings.rays(),
+                               .bounce = to.bindings.bounce(),
+                               .counters = &to.counters};
+  ShareSamples shares;
+  std::vector<glm::vec2> xi;
+  const auto look_up = [&](std::span<const uint32_t> fragments) {
+    const FragmentPoints seen(to.input, fragments, PointTime::of_sample, to.bindings.camera(),
+                              light.rate == TermRate::pixel);
+    xi.clear();
+    for (const uint32_t f : fragments)
+      xi.push_back(places.of_sample(to.input.fragments->sample[f]));
+    shares.reset(int(fragments.size()));
+    light.definition->share_from(light, seen.points(), xi, services, shares);
+  };
+  for_batches(look_ups, look_up, [&](uint32_t f, size_t k) {
+    const glm::vec3 share = finite_share(shares, k, to.counters);
+    for (size_t c = 0; c < 3; ++c) {
+      const float received = share[int(c)] * term[c][f];
+      to.shaded.Ci[c][f] += received;
+      sum.values->received[c][f] += received;
+      sum.values->unblocked[c][f] += term[c][f];
+    }
+    sum.describe(shares, term, f, k);
+  });
+}
+
+/// Whether the light takes a place of each sample's own; otherwise its transmission is one number.
+bool takes_places(const BoundLight& light) {
+  return light.definition->distributed() && !light.shadow;
+}
+
+/// Effects that some light has, sized and zeroed; the others emptied.
+std::array<EffectSum, ray_effect_count> start_effects(const TermTarget& to) {
+  std::array<EffectSum, ray_effect_count> sums;
+  const size_t fragments = to.input.fragments->size();
+  for (size_t e = 0; e < ray_effect_count; ++e) {
+    sums[e].values = &to.shaded.effects[e];
+    const bool wanted = std::ranges::any_of(to.bindings.term_lights(), [&](const BoundLight* l) {
+      return takes_places(*l) && size_t(l->definition->effect) == e;
+    });
+    sums[e].values->resize(wanted ? fragments : 0);
+    sums[e].brightest.assign(wanted ? fragments : 0, 0.0f);
+  }
+  return sums;
 }
 
 class LightTermShading : public Shading {
@@ -171,9 +226,16 @@ class LightTermShading : public Shading {
 
 void apply_light_terms(const ShadeInput& input, const ShaderBindings& bindings,
                        ShadedFragments& shaded, ShadeCounters& counters) {
+  const TermTarget to{input, bindings, shaded, counters};
+  std::array<EffectSum, ray_effect_count> sums = start_effects(to);
   for (size_t k = 0; k < bindings.light_term_count(); ++k) {
-    apply_term(input, *bindings.term_lights()[k], bindings.camera(), shaded.light_terms.at(k),
-               shaded.Ci, counters);
+    const BoundLight& light = *bindings.term_lights()[k];
+    const Term& term = shaded.light_terms.at(k);
+    if (takes_places(light)) {
+      apply_distributed(to, light, term, sums[size_t(light.definition->effect)]);
+    } else {
+      apply_transmission(to, light, term);
+    }
   }
 }
 

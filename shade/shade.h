@@ -67,6 +67,7 @@ struct ShadingRequest {
 struct ShadeCounters {
   uint64_t grids_shaded = 0, points_shaded = 0, light_evaluations = 0, texture_lookups = 0;
   uint64_t shadow_lookups = 0, rays = 0, nonfinite_dropped = 0;
+  uint64_t bounce_points_shaded = 0;  ///< of surfaces as rays meet them
   static constexpr auto fields() {
     using C = ShadeCounters;
     return std::array{CounterField<C>{"grids_shaded", &C::grids_shaded},
@@ -75,7 +76,8 @@ struct ShadeCounters {
                       CounterField<C>{"texture_lookups", &C::texture_lookups},
                       CounterField<C>{"shadow_lookups", &C::shadow_lookups},
                       CounterField<C>{"rays", &C::rays},
-                      CounterField<C>{"nonfinite_dropped", &C::nonfinite_dropped}};
+                      CounterField<C>{"nonfinite_dropped", &C::nonfinite_dropped},
+                      CounterField<C>{"bounce_points_shaded", &C::bounce_points_shaded}};
   }
 };
 
@@ -138,7 +140,7 @@ bool wants_primvar(const ShaderBindings& bindings, const Attributes& attributes,
 enum class ChannelFilter { filtered, closest };  ///< closest: the value of the nearest surface seen
 
 /// A channel group that a Display or --aov can ask for (table in shade/aov.cpp): "rgb", "a", "z",
-/// "Ci", "Oi", "P", "N", "st", "motion", "id", "cell".
+/// "Ci", "Oi", "direct", "indirect", "P", "N", "st", "motion", "id", "cell".
 struct AovDefinition {
   const char* name;
   const char* help;
@@ -152,7 +154,8 @@ std::span<const AovDefinition> aov_registry();
 const AovDefinition& find_aov(std::string_view name);
 
 /// Fills `out` for a bucket: the effects in `shaded` composited as Ci is, and the nearest surfaces.
-/// `lens` and `motion` as in HideFeatures.
+/// `lens` and `motion` as in HideFeatures. An effect that `shaded` does not have stays empty, as in
+/// a bucket where nothing is seen.
 void describe_samples(const ShadeInput& input, const ShadedFragments& shaded, const Camera& camera,
                       bool lens, bool motion, DistributionSamples& out);
 

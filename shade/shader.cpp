@@ -72,15 +72,11 @@ Vec3Array ShaderContext::facing_normals() const {
 }
 
 Illumination ShaderContext::gather(const Vec3Array& N) const {
-  Illumination light;
-  gather_light(services_.lights, points_, N, nullptr, Shadows::cast, light, *services_.counters);
-  return light;
+  return gather_from(services_.lights, N, nullptr, Shadows::cast);
 }
 
 Illumination ShaderContext::gather(const Vec3Array& N, const ScalarInput& roughness) const {
-  Illumination light;
-  gather_light(services_.lights, points_, N, &roughness, Shadows::cast, light, *services_.counters);
-  return light;
+  return gather_from(services_.lights, N, &roughness, Shadows::cast);
 }
 
 Illumination ShaderContext::gather_together(const Vec3Array& N,
@@ -88,17 +84,23 @@ Illumination ShaderContext::gather_together(const Vec3Array& N,
   std::vector<const BoundLight*> lights;
   std::ranges::copy_if(services_.lights, std::back_inserter(lights),
                        [](const BoundLight* light) { return !light->term; });
-  Illumination light;
-  gather_light(lights, points_, N, roughness, Shadows::cast, light, *services_.counters);
-  return light;
+  return gather_from(lights, N, roughness, Shadows::cast);
 }
 
 Illumination ShaderContext::gather_alone(const BoundLight& light, const Vec3Array& N,
                                          const ScalarInput* roughness) const {
   const BoundLight* const lights[] = {&light};
-  Illumination alone;
-  gather_light(lights, points_, N, roughness, Shadows::left_out, alone, *services_.counters);
-  return alone;
+  return gather_from(lights, N, roughness, Shadows::left_out);
+}
+
+Illumination ShaderContext::gather_from(std::span<const BoundLight* const> lights,
+                                        const Vec3Array& N, const ScalarInput* roughness,
+                                        Shadows shadows) const {
+  Illumination light;
+  const ScalarInput* wanted = services_.diffuse_only ? nullptr : roughness;
+  gather_light(lights, points_, N, wanted, shadows, light, *services_.counters);
+  if (roughness && !wanted) light.specular.reset(count());
+  return light;
 }
 
 glm::vec3 ShaderContext::shader_vector(const glm::vec3& vector_camera) const {

@@ -55,6 +55,9 @@ struct ShaderServices {
   std::span<const BoundLight* const> lights{};
   FrameTextures* textures = nullptr;
   ShadeCounters* counters = nullptr;
+  /// Whether light is only wanted that the surface sends out alike in all directions: highlights and
+  /// reflections are zero then.
+  bool diffuse_only = false;
 };
 
 /// Directions and how they differ within each point's shading cell, camera space.
@@ -121,6 +124,8 @@ class ShaderContext {
   glm::vec3 shader_vector(const glm::vec3& vector_camera) const;
 
  private:
+  Illumination gather_from(std::span<const BoundLight* const> lights, const Vec3Array& N,
+                           const ScalarInput* roughness, Shadows shadows) const;
   Illumination gather_together(const Vec3Array& N, const ScalarInput* roughness) const;
   Illumination gather_alone(const BoundLight& light, const Vec3Array& N,
                             const ScalarInput* roughness) const;

@@ -98,6 +98,7 @@ CellDirections ShaderContext::mirror_directions(const Vec3Array& N) const {
 
 Vec3Array ShaderContext::environment(const std::string& file, const CellDirections& directions,
                                      const ScalarInput& blur) const {
+  if (services_.diffuse_only) return Vec3Array(count());
   services_.counters->texture_lookups += uint64_t(count());
   const size_t n = size_t(count());
   std::vector<float> s(n), t(n), dsdx(n), dtdx(n), dsdy(n), dtdy(n);

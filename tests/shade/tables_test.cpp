@@ -13,7 +13,7 @@ TEST_CASE("channel groups are found by name and unknown ones list the choices") 
   CHECK(find_aov("rgb").channels == std::vector<std::string>{"R", "G", "B"});
   CHECK(find_aov("motion").filter == ChannelFilter::closest);
   CHECK_THROWS_WITH(find_aov("rbg"), Catch::Contains("rbg") && Catch::Contains("motion"));
-  CHECK(aov_registry().size() == 11);
+  CHECK(aov_registry().size() == 13);
 }
 
 TEST_CASE("the manual names every shader, light, parameter and channel group") {

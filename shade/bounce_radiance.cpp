@@ -1,0 +1,128 @@
+#include "shade/bounce_radiance.h"
+
+#include <cmath>
+
+#include "shade/bindings.h"
+#include "shade/fragment_geometry.h"
+#include "shade/grid_points.h"
+
+namespace tessera {
+namespace {
+
+/// Copies of a surface's lights that are all taken together, shadows and all, without those whose
+/// light has bounced. Ambient lights stay, however they are blocked.
+std::vector<BoundLight> direct_lights(const SurfaceBinding& surface) {
+  std::vector<BoundLight> lights;
+  for (const BoundLight* light : surface.lights) {
+    if (light->definition->hemisphere && !light->definition->ambient) continue;
+    BoundLight& direct = lights.emplace_back(*light);
+    direct.rate = TermRate::cell;
+    direct.term.reset();
+  }
+  return lights;
+}
+
+/// Views from straight over the side, so that shaders turn their normals there.
+Vec3Array views_of_side(const ShadingPoints& points, float side) {
+  Vec3Array views(points.count);
+  for (int i = 0; i < points.count; ++i) {
+    const glm::vec3 N = points.N[i];
+    views.set(i, N == glm::vec3(0.0f) ? glm::vec3(0.0f, 0.0f, 1.0f) : -side * N);
+  }
+  return views;
+}
+
+}  // namespace
+
+BounceRadiance::BounceRadiance(const ShaderBindings& bindings, const RayTracer& rays)
+    : bindings_(bindings),
+      rays_(rays),
+      vertices_(std::make_unique<Vertices[]>(rays.grids().size())) {}
+
+BounceRadiance::~BounceRadiance() = default;
+
+void BounceRadiance::radiance(const Rays& rays, const RayHits& hits, Vec3Array& out,
+                              ShadeCounters& counters) const {
+  out.reset(rays.count());
+  for (int i = 0; i < rays.count(); ++i) {
+    const size_t k = size_t(i);
+    if (!std::isfinite(hits.distance[k])) continue;
+    const Grid& grid = *rays_.grids()[hits.grid[k]];
+    const std::array<int, 3> corners = grid.triangle_corners(hits.triangle[k]);
+    const Side side = side_met(grid, corners, rays.direction[i], rays.time[k]);
+    const std::vector<glm::vec3>& vertices = vertices_of(hits.grid[k], side, counters);
+    const float b1 = hits.b1[k], b2 = hits.b2[k];
+    out.set(i, (1.0f - b1 - b2) * vertices[size_t(corners[0])] + b1 * vertices[size_t(corners[1])] +
+                   b2 * vertices[size_t(corners[2])]);
+  }
+}
+
+BounceRadiance::Side BounceRadiance::side_met(const Grid& grid, const std::array<int, 3>& corners,
+                                              const glm::vec3& direction, float time) {
+  const KeyBlend at(grid, time);
+  const glm::dvec3 a(vertex_camera(grid, corners[0], at));
+  const glm::dvec3 b(vertex_camera(grid, corners[1], at)), c(vertex_camera(grid, corners[2], at));
+  const glm::dvec3 outward = double(grid.normal_sign) * glm::cross(b - a, c - a);
+  return glm::dot(outward, glm::dvec3(direction)) > 0.0 ? Side::back : Side::front;
+}
+
+const std::vector<glm::vec3>& BounceRadiance::vertices_of(uint32_t grid, Side side,
+                                                          ShadeCounters& counters) const {
+  Vertices& vertices = vertices_[grid];
+  std::call_once(vertices.shaded[size_t(side)], [&] {
+    vertices.radiance[size_t(side)] = shade(*rays_.grids()[grid], side, counters);
+  });
+  return vertices.radiance[size_t(side)];
+}
+
+std::vector<glm::vec3> BounceRadiance::shade(const Grid& grid, Side side,
+                                             ShadeCounters& counters) const {
+  const SurfaceBinding& surface = bindings_.of(grid.attributes());
+  const GridPoints batch(grid, bindings_.camera(), Footprints::over_micropolygons);
+  ShadingPoints points = batch.points();
+  const Vec3Array views = views_of_side(points, side == Side::front ? 1.0f : -1.0f);
+  points.I = views;
+  const std::vector<int32_t> surfaces(size_t(points.count), int32_t(grid.surface->id));
+  points.surface = surfaces.data();
+
+  const std::vector<BoundLight> lights = direct_lights(surface);
+  std::vector<const BoundLight*> views_of_lights;
+  for (const BoundLight& light : lights) views_of_lights.push_back(&light);
+  SurfaceColors colors{Vec3Array(points.count), Vec3Array(points.count)};
+  colors.light_terms.resize(bindings_.light_term_count());  // nothing is written there
+  const ShaderDefinition& definition = *surface.surface.definition;
+  const ShaderContext context(surface.surface, points,
+                              {.lights = views_of_lights,
+                               .textures = &bindings_.textures(),
+                               .counters = &counters,
+                               .diffuse_only = true});
+  definition.surface(context, colors);
+  counters.bounce_points_shaded += uint64_t(points.count);
+
+  std::vector<glm::vec3> radiance;
+  uint64_t failed = 0;
+  for (int i = 0; i < points.count; ++i) {
+    const glm::vec3 Ci = colors.Ci[i];
+    const bool finite = std::isfinite(Ci.x) && std::isfinite(Ci.y) && std::isfinite(Ci.z);
+    radiance.push_back(finite ? Ci : glm::vec3(0.0f));
+    failed += !finite;
+  }
+  if (failed > 0) {
+    counters.nonfinite_dropped += failed;
+    bindings_.diagnostics().warn_once(
+        "nonfinite " + definition.name, surface.surface.where,
+        fmt::format("surface shader \"{}\" gave values that are not finite; such points are "
+                    "dropped",
+                    definition.name));
+  }
+  return radiance;
+}
+
+size_t BounceRadiance::memory_bytes() const {
+  size_t bytes = rays_.grids().size() * sizeof(Vertices);
+  for (size_t g = 0; g < rays_.grids().size(); ++g)
+    for (const auto& side : vertices_[g].radiance) bytes += side.capacity() * sizeof(glm::vec3);
+  return bytes;
+}
+
+}  // namespace tessera

@@ -1,0 +1,334 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hide/samples.h"
+#include "shade/fragment_points.h"
+#include "shade/light_terms.h"
+#include "shade/sample_places.h"
+#include "tests/shade/ray_fixtures.h"
+
+using namespace tessera;
+using namespace tessera::test;
+
+namespace {
+
+constexpr size_t bounce = size_t(RayEffect::bounce), shadow = size_t(RayEffect::shadow);
+
+/// A white floor in the plane z = 3 of which x > 0 is seen, with a wall along the eye's axis that
+/// covers part of its sky, under an occlusion light.
+struct Yard {
+  TestScene test;
+  std::shared_ptr<ShaderBindings> bindings;
+  std::shared_ptr<const RayTracer> tracer;
+
+  explicit Yard(std::vector<ShaderCall> lights, const std::string& shader = "matte") {
+    for (ShaderCall& light : lights) test.add_light(std::move(light));
+    test.add_surface(shader);
+    test.add_surface("matte");
+    test.camera = std::make_unique<Camera>(test.scene.camera);
+    bindings = bind_shaders({&test.scene, test.camera.get(), &test.diagnostics, {}});
+    // At x = 0.5, 1 to both sides and 2 high, towards the eye.
+    tracer = std::make_shared<BruteTracer>(std::vector<std::shared_ptr<const Grid>>{
+        make_square(floor(), 1, 3.0f), make_grid(wall(), 1, 1, [](float u, float v) {
+          return glm::vec3(0.5f, 2.0f * u - 1.0f, 3.0f - 2.0f * v);
+        })});
+    use_rays(*bindings, tracer);
+  }
+  const Surface& floor() const { return test.scene.surfaces[0]; }
+  const Surface& wall() const { return test.scene.surfaces[1]; }
+};
+
+/// Pixels whose samples all see the middle of a floor's triangle: (1/3, -1/3, 3) of make_square().
+TestBucket bucket_of(const Surface& surface, const PixelRect& rect, int spp) {
+  TestBucket bucket(0);
+  SamplePattern(spp, 3, nullptr, nullptr, {}, {true, true}).fill(rect, bucket.samples);
+  bucket.grids = {make_square(surface, 1, 3.0f)};
+  for (size_t s = 0; s < bucket.samples.size(); ++s) {
+    bucket.add(0, 0, 1.0f / 3.0f, 1.0f / 3.0f, 3.0f);
+    bucket.finish_sample();
+  }
+  return bucket;
+}
+
+struct Shaded {
+  ShadedFragments fragments;
+  ShadeCounters counters;
+};
+Shaded shade(const Yard& yard, const TestBucket& bucket, const char* mode = "reyes") {
+  Shaded result;
+  make_shading(mode, {yard.bindings})->shade(bucket.input(), result.fragments, result.counters);
+  return result;
+}
+
+double mean(const std::vector<float>& values) {
+  double sum = 0;
+  for (const float v : values) sum += double(v);
+  return sum / double(values.size());
+}
+
+/// See tests/shade/hemisphere_test.cpp.
+double upright_rectangle(double distance, double width, double height) {
+  const double r = std::hypot(distance, height);
+  return (std::atan(width / distance) - distance / r * std::atan(width / r)) /
+         (2.0 * 3.14159265358979);
+}
+/// What the wall leaves open of the sky over the point that samples see.
+double open_share() {
+  const double d = 0.5 - 1.0 / 3.0;
+  return 1.0 - upright_rectangle(d, 1 - 1.0 / 3.0, 2) - upright_rectangle(d, 1 + 1.0 / 3.0, 2);
+}
+
+}  // namespace
+
+TEST_CASE("samples' own rays average to the configuration factor, in every shading mode") {
+  for (const char* mode : {"reyes", "ds", "aas", "pixel", "sample"}) {
+    INFO(mode);
+    const Yard yard({call("occlusionlight", {number("intensity", 2.0f)})});
+    const TestBucket bucket = bucket_of(yard.floor(), {10, 20, 18, 28}, 16);
+    const Shaded shaded = shade(yard, bucket, mode);
+    const EffectValues& effect = shaded.fragments.effects[bounce];
+    REQUIRE(effect.slope.size() == bucket.fragments.size());
+    CHECK(shaded.fragments.effects[shadow].empty());
+    CHECK(mean(effect.received[0]) == Approx(2.0 * open_share()).margin(0.01));
+    CHECK(mean(effect.unblocked[1]) == Approx(2.0));
+    CHECK(shaded.fragments.Ci == effect.received);
+    CHECK(shaded.counters.rays == bucket.fragments.size());
+    CHECK(shaded.counters.shadow_lookups == 0);
+    for (size_t f = 0; f < effect.slope.size(); ++f)
+      REQUIRE(std::isnan(effect.slope[f]) == (effect.received[0][f] == 2.0f));
+    // A pixel of 16 samples is far nearer than 16 independent ones: their deviation is that of a
+    // choice between two, over four.
+    const double open = open_share(), independent = 2.0 * std::sqrt(open * (1 - open) / 16);
+    double square = 0;
+    for (size_t first = 0; first < effect.slope.size(); first += 16) {
+      double sum = 0;
+      for (size_t k = 0; k < 16; ++k) sum += double(effect.received[0][first + k]) / 16;
+      square += (sum - 2.0 * open) * (sum - 2.0 * open) / 64;
+    }
+    CHECK(std::sqrt(square) < 0.6 * independent);
+  }
+}
+
+TEST_CASE("what samples find does not depend on the bucket") {
+  const Yard yard({call("occlusionlight"), call("occlusionlight"), call("indirectlight")});
+  const Shaded whole = shade(yard, bucket_of(yard.floor(), {4, 4, 12, 12}, 8));
+  const Shaded part = shade(yard, bucket_of(yard.floor(), {6, 7, 9, 10}, 8));
+  const auto& all = whole.fragments.effects[bounce];
+  const auto& some = part.fragments.effects[bounce];
+  for (size_t y = 0; y < 3; ++y)
+    for (size_t x = 0; x < 3; ++x)
+      for (size_t k = 0; k < 8; ++k) {
+        const size_t a = ((y + 3) * 8 + x + 2) * 8 + k, b = (y * 3 + x) * 8 + k;
+        REQUIRE(all.received[0][a] == some.received[0][b]);
+        REQUIRE(whole.fragments.Ci[2][a] == part.fragments.Ci[2][b]);
+        REQUIRE(all.y[0][a] == some.y[0][b]);
+      }
+}
+
+TEST_CASE("more than a batch of samples, and all that is seen of a grid in a pixel at pixel rate") {
+  const auto at_rate = [](const char* rate) {
+    return call("occlusionlight", {text("shadowrate", rate)});
+  };
+  const Yard fine({at_rate("sample")}), coarse({at_rate("pixel")}), none({at_rate("cell")});
+  const TestBucket bucket = bucket_of(fine.floor(), {0, 0, 20, 16}, 8);
+  const Shaded samples = shade(fine, bucket);
+  TestBucket same = bucket;
+  same.grids = {make_square(coarse.floor(), 1, 3.0f)};
+  const Shaded pixels = shade(coarse, same);
+  same.grids = {make_square(none.floor(), 1, 3.0f)};
+  CHECK(shade(none, same).fragments.effects[bounce].empty());
+  CHECK(samples.counters.rays == 20 * 16 * 8);
+  CHECK(pixels.counters.rays == 20 * 16);
+  const auto off_centre = [&](size_t s) {
+    const double dx = std::fmod(double(bucket.samples.x[s]), 1.0) - 0.5;
+    const double dy = std::fmod(double(bucket.samples.y[s]), 1.0) - 0.5;
+    return dx * dx + dy * dy;
+  };
+  for (size_t first = 0; first < bucket.samples.size(); first += 8) {
+    size_t middle = first;
+    for (size_t s = first; s < first + 8; ++s)
+      if (off_centre(s) < off_centre(middle)) middle = s;
+    for (size_t s = first; s < first + 8; ++s)
+      REQUIRE(pixels.fragments.Ci[0][s] == samples.fragments.Ci[0][middle]);
+  }
+}
+
+TEST_CASE("lights of an effect add up, and the brighter one has the coordinate") {
+  const auto lamp = [](float intensity, float reach) {
+    return call("occlusionlight", {number("intensity", intensity), number("maxdistance", reach)});
+  };
+  // The second of each is the first alone, but with places of its own.
+  const Yard both({lamp(1.0f, 1e30f), lamp(3.0f, 0.0f)}),
+      other({lamp(3.0f, 1e30f), lamp(1.0f, 0.0f)});
+  const TestBucket bucket = bucket_of(both.floor(), {0, 0, 4, 4}, 16);
+  TestBucket same = bucket;
+  same.grids = {make_square(other.floor(), 1, 3.0f)};
+  const Shaded a = shade(both, bucket), b = shade(other, same);
+  for (size_t f = 0; f < bucket.fragments.size(); ++f) {
+    const float met_a = 4.0f - a.fragments.Ci[0][f], met_b = (4.0f - b.fragments.Ci[0][f]) / 3.0f;
+    REQUIRE(met_a == Approx(met_b).margin(1e-6));
+    REQUIRE(a.fragments.effects[bounce].unblocked[2][f] == 4.0f);
+    REQUIRE(std::isnan(a.fragments.effects[bounce].slope[f]));
+    REQUIRE(std::isnan(b.fragments.effects[bounce].slope[f]) == (met_b == 0.0f));
+  }
+}
+
+TEST_CASE(
+    "surfaces that an effect does not light cost no rays, and samples without places are told") {
+  const Yard dark({call("occlusionlight", {number("intensity", 0.0f)})});
+  const Shaded shaded = shade(dark, bucket_of(dark.floor(), {0, 0, 4, 4}, 4));
+  CHECK(shaded.counters.rays == 0);
+  CHECK(shaded.fragments.effects[bounce].slope.size() == 64);
+  const Yard yard({call("occlusionlight")});
+  TestBucket bucket = bucket_of(yard.floor(), {0, 0, 4, 4}, 4);
+  bucket.samples.bounce_y.clear();
+  CHECK_THROWS_WITH(shade(yard, bucket), Catch::Contains("SampleExtras"));
+}
+
+TEST_CASE("what moves is met where it was when the sample was taken") {
+  Yard yard({call("occlusionlight")});
+  // A lid close over the whole floor, which slides away in the first half of the shutter: it is as
+  // wide as 200 and moves by 400.
+  auto lid = make_grid(yard.wall(), 1, 1, [](float u, float v) {
+    return glm::vec3(200.0f * u - 100.0f, 200.0f * v - 100.0f, 2.99f);
+  });
+  lid->key_times = {0.0f, 1.0f};
+  const AlignedVector<float> rest = lid->P_camera;
+  lid->P_camera.insert(lid->P_camera.end(), rest.begin(), rest.end());
+  for (size_t k = 0; k < lid->stride(); ++k) lid->P(1, 0)[k] += 400.0f;
+  use_rays(*yard.bindings,
+           std::make_shared<BruteTracer>(std::vector<std::shared_ptr<const Grid>>{lid}));
+  TestBucket bucket = bucket_of(yard.floor(), {0, 0, 4, 4}, 4);
+  for (size_t s = 0; s < bucket.samples.size(); ++s)
+    bucket.samples.t.push_back(s % 2 == 0 ? 0.2f : 0.3f);
+  const Shaded shaded = shade(yard, bucket);
+  // At 0.2 the lid's edge is at x = -20, at 0.3 at x = 20; the floor point sees all but grazing
+  // directions through a hundredth over it.
+  int early = 0, late = 0;
+  for (size_t s = 0; s < bucket.samples.size(); ++s)
+    (s % 2 == 0 ? early : late) += shaded.fragments.Ci[0][s] == 0.0f;
+  CHECK(early == 32);
+  CHECK(late == 0);
+}
+
+TEST_CASE("points are carried along with surfaces that turn") {
+  TestScene test;
+  const Surface& surface = test.add_surface("matte");
+  test.bind();
+  // A cap of a ball that turns by 1 radian about its centre, 4 before the eye, with 64 keys.
+  const glm::dvec3 centre(0, 0, 4);
+  const auto normal = [](float u, float v) {
+    const float x = 0.5f * (u - 0.5f), y = 0.5f * (v - 0.5f);
+    return glm::vec3(x, y, -std::sqrt(1.0f - x * x - y * y));
+  };
+  const auto turned = [](const glm::dvec3& p, double t) {
+    return glm::dvec3(p.x * std::cos(t) + p.z * std::sin(t), p.y,
+                      -p.x * std::sin(t) + p.z * std::cos(t));
+  };
+  auto grid =
+      make_grid(surface, 4, 4, [&](float u, float v) { return glm::vec3(centre) + normal(u, v); });
+  set_normals(*grid, normal);
+  const AlignedVector<float> rest = grid->P_camera;
+  for (int key = 1; key <= 64; ++key) {
+    grid->key_times.push_back(float(key) / 64.0f);
+    grid->P_camera.insert(grid->P_camera.end(), rest.begin(), rest.end());
+    for (size_t k = 0; k < grid->stride(); ++k) {
+      const glm::dvec3 p(rest[k], rest[grid->stride() + k], rest[2 * grid->stride() + k]);
+      const glm::dvec3 q = centre + turned(p - centre, key / 64.0);
+      for (int axis = 0; axis < 3; ++axis) grid->P(key, axis)[k] = float(q[axis]);
+    }
+  }
+  TestBucket bucket(32);
+  bucket.grids = {grid};
+  std::vector<uint32_t> all;
+  for (uint32_t k = 0; k < 32; ++k) {
+    bucket.add(0, k, 0.3f, 0.4f, 3.0f);
+    bucket.finish_sample();
+    bucket.samples.t.push_back(float(k) / 31.0f);
+    all.push_back(k);
+  }
+  const ShadeInput input = bucket.input();
+  const FragmentPoints open(input, all, PointTime::shutter_open, *test.camera, false);
+  const FragmentPoints then(input, all, PointTime::of_sample, *test.camera, true);
+  CHECK(open.points().time == nullptr);
+  CHECK(then.points().dPdx.x != nullptr);
+  for (int k = 0; k < 32; ++k) {
+    const double t = double(bucket.samples.t[size_t(k)]);
+    const glm::dvec3 P = centre + turned(glm::dvec3(open.points().P[k]) - centre, t);
+    // Keys 1/64 apart are joined by chords, up to 1 - cos(1/128) = 3.1e-5 inside.
+    CHECK(glm::length(glm::dvec3(then.points().P[k]) - P) < 4e-5);
+    const glm::dvec3 N = turned(glm::dvec3(open.points().N[k]), t);
+    // Towards the eye all the time, for the triangle turns by less than a right angle.
+    CHECK(glm::length(glm::dvec3(then.points().N[k]) - N) < 1e-4);
+    CHECK(then.points().time[k] == bucket.samples.t[size_t(k)]);
+    CHECK(then.points().surface[k] == surface.id);
+    // On the ball, where the triangle is not: its corners are 1/8 apart.
+    CHECK(glm::length(glm::dvec3(open.points().P[k]) - centre) == Approx(1.0).margin(2e-4));
+  }
+}
+
+TEST_CASE("normals of surfaces seen from behind point to the eye, and lost ones harm nobody") {
+  TestScene test;
+  const Surface& surface = test.add_surface("matte");
+  test.bind();
+  auto away = make_square(surface, 1, 3.0f), flat = make_square(surface, 1, 3.0f);
+  set_normals(*away, [](float, float) { return glm::vec3(0, 0, 1); });
+  for (float& p : flat->P_camera) p = 1.0f;
+  for (float& n : flat->N_camera) n = 0.0f;
+  flat->key_times = {0.0f, 1.0f};
+  const AlignedVector<float> rest = flat->P_camera;
+  flat->P_camera.insert(flat->P_camera.end(), rest.begin(), rest.end());
+  TestBucket bucket(2);
+  bucket.grids = {away, flat};
+  bucket.samples.t = {0.5f, 0.5f};
+  bucket.add(0, 0, 0.25f, 0.25f, 3.0f);
+  bucket.finish_sample();
+  bucket.add(1, 1, 0.25f, 0.25f, 1.0f);
+  bucket.finish_sample();
+  const std::vector<uint32_t> all{0, 1};
+  const FragmentPoints points(bucket.input(), all, PointTime::of_sample, *test.camera, false);
+  CHECK(points.points().N[0] == glm::vec3(0, 0, -1));
+  CHECK(points.points().N[1] == glm::vec3(0, 0, 0));
+  CHECK(points.points().P[1] == glm::vec3(1, 1, 1));
+}
+
+TEST_CASE("further lights of an effect have nets of their own that tell nothing of the first") {
+  SampleBlock block;
+  SamplePattern(16, 5, nullptr, nullptr, {}, {true, true}).fill({3, 2, 35, 34}, block);
+  const SamplePlaces first(block, RayEffect::shadow, 0), second(block, RayEffect::shadow, 1),
+      third(block, RayEffect::shadow, 2), other(block, RayEffect::bounce, 1);
+  double ab = 0, bc = 0, bd = 0, pixels_ab = 0;
+  const double n = double(block.size());
+  for (uint32_t s = 0; s < block.size(); s += 16) {
+    double pixel_a = 0, pixel_b = 0;
+    for (const SamplePlaces* places : {&second, &third}) {
+      bool hit[4][4] = {}, row[16] = {}, column[16] = {};
+      for (uint32_t k = s; k < s + 16; ++k) {
+        const glm::vec2 at = places->of_sample(k);
+        REQUIRE((at.x >= 0 && at.x < 1 && at.y >= 0 && at.y < 1));
+        hit[int(at.x * 4)][int(at.y * 4)] = true;
+        row[int(at.y * 16)] = true, column[int(at.x * 16)] = true;
+      }
+      REQUIRE(std::count(&hit[0][0], &hit[0][0] + 16, true) == 16);
+      REQUIRE(std::count(row, row + 16, true) == 16);
+      REQUIRE(std::count(column, column + 16, true) == 16);
+    }
+    for (uint32_t k = s; k < s + 16; ++k) {
+      const glm::dvec2 a(first.of_sample(k)), b(second.of_sample(k)), c(third.of_sample(k));
+      const glm::dvec2 d(other.of_sample(k));
+      REQUIRE(a == glm::dvec2(block.light_x[k], block.light_y[k]));
+      ab += (a.x - 0.5) * (b.x - 0.5) * 12 / n, bc += (b.x - 0.5) * (c.x - 0.5) * 12 / n;
+      bd += (b.y - 0.5) * (d.y - 0.5) * 12 / n;
+      pixel_a += a.x - 0.5, pixel_b += b.x - 0.5;
+    }
+    // The error of a pixel's 16: each is uniform within 1/16, so the sum has variance 16/12/256.
+    pixels_ab += pixel_a * pixel_b / (16.0 / 12 / 256) / (n / 16);
+  }
+  // 1 / sqrt(16384) = 0.008 a deviation, 1 / sqrt(1024) = 0.031 for pixels; five of them.
+  CHECK(std::abs(ab) < 0.04);
+  CHECK(std::abs(bc) < 0.04);
+  CHECK(std::abs(bd) < 0.04);
+  CHECK(std::abs(pixels_ab) < 0.16);
+}

@@ -1,0 +1,349 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include "shade/bindings.h"
+#include "shade/bounce_radiance.h"
+#include "shade/hemisphere.h"
+#include "tests/shade/ray_fixtures.h"
+
+using namespace tessera;
+using namespace tessera::test;
+
+namespace {
+
+constexpr double exact_pi = 3.14159265358979323846;
+
+/// Parameters of a light on its own, in camera space.
+BoundLight bound(const char* name, std::vector<Parameter> parameters, Diagnostics& diagnostics) {
+  const LightDefinition* definition = find_light(name);
+  REQUIRE(definition);
+  return {.definition = definition,
+          .parameters = BoundParameters(definition->parameters, call(name, std::move(parameters)),
+                                        {}, name, diagnostics)};
+}
+
+/// The cosine-weighted share of directions over a point that an upright rectangle covers: it stands
+/// on the point's plane at `distance`, from the foot of the perpendicular `width` to one side, and
+/// is `height` high. J. Howell, "A catalog of radiation heat transfer configuration factors", B-4.
+double upright_rectangle(double distance, double width, double height) {
+  const double r = std::hypot(distance, height);
+  return (std::atan(width / distance) - distance / r * std::atan(width / r)) / (2.0 * exact_pi);
+}
+
+/// A wall in the plane x = 0, `half_width` to both sides in y and from z = 0 to z = -height, and
+/// the surface it belongs to. Its normal is +x.
+std::shared_ptr<Grid> make_wall(const Surface& surface, int n, float half_width, float height) {
+  auto grid = make_grid(surface, n, n, [=](float u, float v) {
+    return glm::vec3(0.0f, (2.0f * u - 1.0f) * half_width, -height * v);
+  });
+  set_normals(*grid, [](float, float) { return glm::vec3(1.0f, 0.0f, 0.0f); });
+  return grid;
+}
+
+ShareSamples shares_at(const BoundLight& light, const LightPoints& at,
+                       const std::vector<glm::vec2>& xi, const LightServices& services) {
+  ShareSamples out;
+  light.definition->share_from(light, at.points, xi, services, out);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("directions over a surface have the density of the cosine") {
+  const glm::vec3 normals[] = {{0, 0, 1},
+                               {0, 0, -1},
+                               glm::normalize(glm::vec3(1, -2, -1e-4f)),
+                               glm::normalize(glm::vec3(-3, 1, 2))};
+  for (const glm::vec3& N : normals) {
+    // Moments of the density cos / pi: E cos = 2/3, E cos^2 = 1/2, E of each tangential part
+    // squared 1/4.
+    double cosine = 0, square = 0;
+    glm::dvec3 sum(0.0);
+    const auto places = spread_over_square(64);
+    for (const glm::vec2& xi : places) {
+      const glm::dvec3 d(cosine_direction(N, xi));
+      REQUIRE(glm::length(d) == Approx(1.0).epsilon(1e-6));
+      const double c = glm::dot(d, glm::dvec3(N));
+      REQUIRE(c >= -1e-6);
+      cosine += c, square += c * c, sum += d;
+    }
+    const double n = double(places.size());
+    CHECK(cosine / n == Approx(2.0 / 3.0).epsilon(1e-3));
+    CHECK(square / n == Approx(0.5).epsilon(1e-3));
+    CHECK(glm::length(sum / n - 2.0 / 3.0 * glm::dvec3(N)) < 1e-3);
+  }
+  CHECK(cosine_direction(glm::vec3(0.0f), {0.3f, 0.4f}) == glm::vec3(0.0f));
+  CHECK(cosine_direction(glm::vec3(std::nanf("")), {0.3f, 0.4f}) == glm::vec3(0.0f));
+}
+
+TEST_CASE("occlusion beside a wall is what the configuration factor leaves open") {
+  TestScene test;
+  const Surface& wall = test.add_surface("matte");
+  test.bind();
+  const BruteTracer tracer({make_wall(wall, 1, 1.5f, 2.0f)});
+  const BoundLight light = bound("occlusionlight", {}, test.diagnostics);
+  ShadeCounters counters;
+  const LightServices services{.rays = &tracer, .counters = &counters};
+  const float distances[] = {0.1f, 0.5f, 1.0f, 4.0f};
+  const LightPoints at({{0.1f, 0, 0}, {0.5f, 0, 0}, {1, 0, 0}, {4, 0, 0}}, {0, 0, -1});
+  Vec3Array mean;
+  mean_share(light, at.points, spread_over_square(80), services, mean);
+  for (int i = 0; i < 4; ++i) {
+    const double covered = 2.0 * upright_rectangle(double(distances[i]), 1.5, 2.0);
+    CHECK(double(mean[i].x) == Approx(1.0 - covered).margin(0.004));
+    CHECK(mean[i].x == mean[i].z);
+  }
+  CHECK(counters.rays == 4u * 80 * 80);
+}
+
+TEST_CASE("occlusion ends at maxdistance and is thinned by transparency") {
+  TestScene test;
+  Attributes glass;
+  glass.opacity = {0.25f, 0.5f, 0.75f};
+  const Surface& lid = test.add_surface(glass);
+  test.bind();
+  // Far wider than high over the point, which lies at the origin and looks along -z.
+  const auto grid = make_grid(lid, 1, 1, [](float u, float v) {
+    return glm::vec3(2e3f * u - 1e3f, 2e3f * v - 1e3f, -1.0f);
+  });
+  const BruteTracer tracer({grid});
+  ShadeCounters counters;
+  const LightServices services{.rays = &tracer, .counters = &counters};
+  const LightPoints at({{0, 0, 0}}, {0, 0, -1});
+  const auto mean_within = [&](float distance) {
+    const BoundLight light =
+        bound("occlusionlight", {number("maxdistance", distance)}, test.diagnostics);
+    Vec3Array mean;
+    mean_share(light, at.points, spread_over_square(64), services, mean);
+    return double(mean[0].y);
+  };
+  CHECK(mean_within(1e30f) == Approx(0.5).margin(1e-3));
+  CHECK(mean_within(std::nanf("")) == Approx(0.5).margin(1e-3));
+  CHECK(mean_within(0.99f) == 1.0);
+  CHECK(mean_within(0.0f) == 1.0);
+  CHECK(mean_within(-1.0f) == 1.0);
+  // Met within r where cos > 1 / r; with density cos / pi that is a share of 1 - 1 / r^2.
+  CHECK(mean_within(2.0f) == Approx(1.0 - 0.5 * (1.0 - 0.25)).margin(0.003));
+}
+
+TEST_CASE("inside a ball the indirect light of a point light is the same wherever both are") {
+  // Every patch of a ball sees every other with the same configuration factor, so what arrives is
+  // the mean radiosity: of a point light within, albedo * intensity * 4 pi / (4 pi r^2).
+  for (const glm::vec3 lamp : {glm::vec3(0, 0, 4), glm::vec3(0.5f, -0.6f, 4.2f)}) {
+    TestScene test;
+    test.add_light(
+        call("pointlight", {triple("from", ValueType::point, lamp), number("intensity", 3.0f)}));
+    test.add_light(call("indirectlight"));  // does not bounce again
+    Attributes white;
+    white.color = {0.5f, 0.25f, 1.0f};
+    white.surface = call("matte");
+    const Surface& room = test.add_surface(white);
+    const auto bindings = test.bind();
+    const glm::vec3 centre(0, 0, 4);
+    const auto ball = make_ball(room, centre, 2.0f);
+    const BruteTracer tracer({ball}, 0.02);
+    const BounceRadiance bounce(*bindings, tracer);
+    ShadeCounters counters;
+    const LightServices services{&bindings->camera(), &tracer, &bounce, &counters};
+    const BoundLight light = bound("indirectlight", {}, test.diagnostics);
+    for (const glm::vec3 n : {glm::vec3(0, 1, 0), glm::normalize(glm::vec3(1, 2, -3))}) {
+      const LightPoints at({centre - 1.99f * n}, n, room.id);
+      Vec3Array mean;
+      mean_share(light, at.points, spread_over_square(24), services, mean);
+      const double expected = 3.0 / 4.0;
+      CHECK(double(mean[0].x) == Approx(0.5 * expected).epsilon(0.02));
+      CHECK(double(mean[0].y) == Approx(0.25 * expected).epsilon(0.02));
+      CHECK(double(mean[0].z) == Approx(1.0 * expected).epsilon(0.02));
+    }
+    // One side of one grid, once.
+    CHECK(counters.bounce_points_shaded == uint64_t(ball->vertex_count()));
+    CHECK(counters.points_shaded == 0);
+    CHECK(bounce.memory_bytes() >= sizeof(glm::vec3) * size_t(ball->vertex_count()));
+  }
+}
+
+TEST_CASE("light from a lit wall is the integral over the wall") {
+  TestScene test;
+  const glm::vec3 lamp(1.0f, 0.3f, -1.5f);
+  test.add_light(call("pointlight", {triple("from", ValueType::point, lamp)}));
+  Attributes red;
+  red.color = {0.8f, 0.1f, 0.0f};
+  red.surface = call("matte");
+  const Surface& surface = test.add_surface(red);
+  const auto bindings = test.bind();
+  const double half_width = 1.5, height = 2.0;
+  const BruteTracer tracer({make_wall(surface, 24, float(half_width), float(height))});
+  const BounceRadiance bounce(*bindings, tracer);
+  ShadeCounters counters;
+  const LightServices services{&bindings->camera(), &tracer, &bounce, &counters};
+  const BoundLight light = bound("indirectlight", {}, test.diagnostics);
+  const std::vector<glm::vec3> receivers = {{0.3f, 0, 0}, {1, 0.5f, 0}, {2, -1, 0}};
+  const LightPoints at(receivers, {0, 0, -1});
+  Vec3Array mean;
+  mean_share(light, at.points, spread_over_square(40), services, mean);
+  for (int r = 0; r < 3; ++r) {
+    double sum = 0;
+    constexpr int n = 300;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const glm::dvec3 Q(0, (2 * (i + 0.5) / n - 1) * half_width, -(j + 0.5) / n * height);
+        const glm::dvec3 to_lamp = glm::dvec3(lamp) - Q, d = Q - glm::dvec3(receivers[size_t(r)]);
+        const double l2 = glm::dot(to_lamp, to_lamp), d2 = glm::dot(d, d);
+        const double radiosity = std::max(0.0, to_lamp.x / std::sqrt(l2)) / l2;
+        sum += radiosity * (-d.z) * (-d.x) / (d2 * d2) / exact_pi;
+      }
+    sum *= 2 * half_width * height / (n * n);
+    CHECK(double(mean[r].x) == Approx(0.8 * sum).epsilon(0.02));
+    CHECK(double(mean[r].y) == Approx(0.1 * sum).epsilon(0.02));
+    CHECK(mean[r].z == 0.0f);
+  }
+}
+
+TEST_CASE("the two sides of a surface are lit apart") {
+  TestScene test;
+  test.add_light(call("pointlight", {triple("from", ValueType::point, {2, 0, -1})}));
+  const Surface& surface = test.add_surface("plastic", {number("Ks", 1e6f)});
+  const auto bindings = test.bind();
+  const BruteTracer tracer({make_wall(surface, 4, 1.0f, 2.0f)});
+  const BounceRadiance bounce(*bindings, tracer);
+  ShadeCounters counters;
+  Rays rays(3);
+  for (int i = 0; i < 3; ++i) {
+    rays.origin.set(i, {i == 0 ? 1.0f : -1.0f, 0.1f, -0.9f});
+    rays.direction.set(i, {i == 0 ? -2.0f : 2.0f, 0, 0});  // of any length
+    rays.far[size_t(i)] = 10.0f;
+  }
+  rays.direction.set(2, {0, 0, -1});  // past it
+  RayHits hits;
+  tracer.closest(rays, hits);
+  Vec3Array met;
+  bounce.radiance(rays, hits, met, counters);
+  // Light of 1 at distance about 2, plastic's Kd of 1/2; no highlight however strong.
+  // Vertices half a unit apart are somewhat darker than the point between them.
+  CHECK(met[0].x == Approx(0.5 / 4).epsilon(0.05));
+  CHECK(met[1] == glm::vec3(0.0f));
+  CHECK(met[2] == glm::vec3(0.0f));
+  CHECK(counters.bounce_points_shaded == 2 * 25);
+}
+
+TEST_CASE("rays go on behind transparent surfaces") {
+  TestScene test;
+  test.add_light(call("ambientlight"));
+  Attributes sheet, wall;
+  sheet.surface = wall.surface = call("matte");
+  sheet.color = {0.0f, 0.0f, 1.0f};
+  sheet.opacity = {0.25f, 0.5f, 1.0f};
+  const Surface& front = test.add_surface(sheet);
+  const Surface& behind = test.add_surface(wall);
+  const auto bindings = test.bind();
+  const BruteTracer tracer({make_square(front, 1, 2.0f), make_square(behind, 1, 3.0f)});
+  const BounceRadiance bounce(*bindings, tracer);
+  ShadeCounters counters;
+  const LightServices services{&bindings->camera(), &tracer, &bounce, &counters};
+  const BoundLight light = bound("indirectlight", {number("maxdistance", 2.5f)}, test.diagnostics);
+  const BoundLight near = bound("indirectlight", {number("maxdistance", 1.5f)}, test.diagnostics);
+  const LightPoints at({{0.1f, 0.2f, 1}}, {0, 0, 1});
+  // The direction of the normal.
+  const ShareSamples seen = shares_at(light, at, {{0.5f, 0.5f}}, services);
+  CHECK(seen.share[0].x == Approx(0.75));
+  CHECK(seen.share[0].y == Approx(0.5));
+  CHECK(seen.share[0].z == Approx(1.0));
+  CHECK(seen.slope[0] == Approx(1.0));
+  CHECK(counters.rays == 2);
+  CHECK(shares_at(near, at, {{0.5f, 0.5f}}, services).share[0].x == 0.0f);
+}
+
+TEST_CASE("a ray's coordinate says where on the picture, beside its start, it meets something") {
+  TestScene test;
+  test.add_light(call("ambientlight"));
+  // A surface parallel to the receiver, for a receiver that is tilted to the view.
+  const glm::vec3 N = glm::normalize(glm::vec3(0.3f, -0.5f, -1.0f)), P(0.4f, 0.2f, 5.0f);
+  const glm::vec3 x = glm::normalize(glm::cross(N, glm::vec3(0, 1, 0))), y = glm::cross(N, x);
+  const float height = 0.01f;  // little, so that the picture changes linearly
+  const Surface& surface = test.add_surface("matte");
+  const auto bindings = test.bind();
+  const auto grid = make_grid(surface, 1, 1, [&](float u, float v) {
+    return P + height * N + (2 * u - 1) * x + (2 * v - 1) * y;
+  });
+  const BruteTracer tracer({grid});
+  const BounceRadiance bounce(*bindings, tracer);
+  ShadeCounters counters;
+  const Camera& camera = bindings->camera();
+  const LightServices services{&camera, &tracer, &bounce, &counters};
+  const LightPoints at({P}, N);
+  for (const char* name : {"indirectlight", "occlusionlight"}) {
+    const BoundLight light = bound(name, {}, test.diagnostics);
+    for (const glm::vec2 xi : {glm::vec2(0.7f, 0.4f), glm::vec2(0.2f, 0.3f)}) {
+      const ShareSamples seen = shares_at(light, at, {xi}, services);
+      // The foot of the hit on the receiver, by hand.
+      const glm::dvec3 d(cosine_direction(N, xi));
+      const double distance = double(height) / glm::dot(d, glm::dvec3(N));
+      const glm::dvec3 foot =
+          glm::dvec3(P) + distance * (d - glm::dvec3(N) * glm::dot(d, glm::dvec3(N)));
+      CHECK(double(seen.slope[0]) == Approx(distance).epsilon(1e-4));
+      for (int axis = 0; axis < 2; ++axis) {
+        // 100 pixels over 2 units at depth 1, y downwards.
+        const double sign = axis == 0 ? 50.0 : -50.0;
+        const double shift = sign * (foot[axis] / foot.z - double(P[axis]) / double(P.z));
+        const double told = double(seen.slope[0]) * double(seen.extent[size_t(axis)][0]) *
+                            double(seen.y[size_t(axis)][0]);
+        CHECK(told == Approx(shift).epsilon(0.02).margin(1e-4));
+        CHECK(std::abs(seen.y[size_t(axis)][0]) <= 1.0f);
+      }
+    }
+  }
+}
+
+TEST_CASE("nothing is known of rays that meet nothing, start nowhere, or have nobody to ask") {
+  TestScene test;
+  const Surface& surface = test.add_surface("matte");
+  const auto bindings = test.bind();
+  const BruteTracer tracer({make_square(surface, 1, 2.0f)});
+  const BounceRadiance bounce(*bindings, tracer);
+  ShadeCounters counters;
+  const LightServices all{&bindings->camera(), &tracer, &bounce, &counters};
+  const LightServices no_rays{&bindings->camera(), nullptr, nullptr, &counters};
+  const BoundLight indirect = bound("indirectlight", {}, test.diagnostics);
+  const BoundLight occlusion = bound("occlusionlight", {}, test.diagnostics);
+  const std::vector<glm::vec2> xi = {{0.5f, 0.5f}};
+  const auto check = [&](const LightPoints& at, const LightServices& services) {
+    const ShareSamples a = shares_at(indirect, at, xi, services);
+    const ShareSamples b = shares_at(occlusion, at, xi, services);
+    CHECK(a.share[0] == glm::vec3(0.0f));
+    CHECK(b.share[0] == glm::vec3(1.0f));
+    for (const ShareSamples* s : {&a, &b}) {
+      CHECK(std::isnan(s->slope[0]));
+      for (size_t axis = 0; axis < 2; ++axis) {
+        CHECK(std::isfinite(s->y[axis][0]));
+        CHECK(std::isfinite(s->extent[axis][0]));
+      }
+    }
+    return a;
+  };
+  check(LightPoints({{0, 0, 1}}, {0, 0, -1}), all);     // away from the square
+  check(LightPoints({{0, 0, 1}}, {0, 0, 1}), no_rays);  // towards it
+  check(LightPoints({{0, 0, 1}}, {0, 0, 0}), all);      // no normal
+  check(LightPoints({{0, 0, 1}}, glm::vec3(std::nanf(""))), all);
+  check(LightPoints({{1e30f, 1e30f, 1e30f}}, {0, 0, 1}), all);
+  check(LightPoints({{0, 0, 1e-30f}}, {0, 0, -1}), all);
+  CHECK(check(LightPoints({{0, 0, 0}}, {0, 0, -1}), all).extent[0][0] == 0.0f);   // in the eye
+  CHECK(check(LightPoints({{0, 0, -1}}, {0, 0, -1}), all).extent[1][0] == 0.0f);  // behind it
+}
+
+TEST_CASE("where a shader fails what bounces is black, and counted") {
+  TestScene test;
+  test.add_light(call("ambientlight", {number("intensity", INFINITY),
+                                       triple("lightcolor", ValueType::color, {0, 1, 1})}));
+  const Surface& surface = test.add_surface("matte");
+  const auto bindings = test.bind();
+  const BruteTracer tracer({make_square(surface, 2, 2.0f)});
+  const BounceRadiance bounce(*bindings, tracer);
+  ShadeCounters counters;
+  const LightServices services{&bindings->camera(), &tracer, &bounce, &counters};
+  const BoundLight light = bound("indirectlight", {}, test.diagnostics);
+  const LightPoints at({{0.1f, 0.2f, 1}}, {0, 0, 1});
+  CHECK(shares_at(light, at, {{0.5f, 0.5f}}, services).share[0] == glm::vec3(0.0f));
+  CHECK(counters.nonfinite_dropped == 9);
+  CHECK(test.warned("not finite"));
+}
