@@ -12,9 +12,9 @@ namespace tessera {
 /// of that.
 inline constexpr size_t most_micropolygons_of_surface = size_t(1) << 20;
 
-/// Dices every surface of the scene, in scene order (that of GridId) and in parallel. The grids are
-/// the same bits for any number of threads, and those of one surface share the vertices of their
-/// edges like any others.
+/// Dices every surface of the scene, in parallel. Grids come by surface, then face, then along the
+/// splits, lower halves first. They are the same bits for any number of threads, and those of one
+/// surface share the vertices of their edges like any others.
 ///
 /// A micropolygon's size is that which it would have if it was turned to the eye in the middle of
 /// the frame, at its own distance, so that it does not depend on where the camera looks; nothing

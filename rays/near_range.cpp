@@ -1,6 +1,7 @@
 #include "rays/near_range.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/glm.hpp>
@@ -9,82 +10,117 @@ namespace tessera {
 
 namespace {
 
-constexpr float safety = 2;
-constexpr float triangle_over_side = 4.0f / 3;
-/// Of the diameter of a micropolygon.
-constexpr float reach_of_diameter = 2;
+/// A surface that deviates by d over the diameter D has curvature 8 d / D^2, and at 1.1 D from
+/// where it touches a plane it is 4.84 d away from it; micropolygons are another d beside it.
+constexpr double height_of_deviation = 6;
+constexpr double triangle_over_side = 4.0 / 3;
+constexpr double eighth = 1.0 / 8;
+/// Of the diameter of a micropolygon: what is above or below it and meets it is no farther away.
+constexpr double reach_of_diameter = 1.1;
 
-glm::vec3 vertex_P(const Grid& grid, int key, int vertex) {
+/// The vertices a, b, c, d of a micropolygon.
+using Corners = std::array<int, 4>;
+
+Corners corners_of(const Grid& grid, uint32_t micropolygon) {
+  const auto first = grid.triangle_corners(2 * micropolygon);
+  const auto second = grid.triangle_corners(2 * micropolygon + 1);
+  return {first[0], first[1], second[2], first[2]};
+}
+
+// In double: products of tiny or huge lengths leave the range of float.
+glm::dvec3 P_at(const Grid& grid, int key, int vertex) {
   return {grid.P(key, 0)[vertex], grid.P(key, 1)[vertex], grid.P(key, 2)[vertex]};
 }
 
-glm::vec3 vertex_N(const Grid& grid, int vertex) {
-  return {grid.N(0)[vertex], grid.N(1)[vertex], grid.N(2)[vertex]};
+/// Difference of the normals at two vertices, at shutter open.
+glm::dvec3 turn(const Grid& grid, int from, int to) {
+  const auto N = [&](int vertex) {
+    return glm::dvec3(grid.N(0)[vertex], grid.N(1)[vertex], grid.N(2)[vertex]);
+  };
+  return N(to) - N(from);
 }
 
-/// How far b is from halfway between a and c, across the line through them: uneven spacing along
-/// a line is no bend.
-float bend(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
-  const glm::vec3 difference = a - 2.0f * b + c, chord = c - a;
-  const float length = glm::length(chord);
-  return length > 0 ? glm::length(glm::cross(chord, difference)) / length : glm::length(difference);
-}
+/// A micropolygon at one key.
+class Measures {
+ public:
+  Measures(const Grid& grid, int key, const Corners& corners)
+      : grid_(grid), key_(key), corners_(corners) {
+    for (size_t c = 0; c < 4; ++c) P_[c] = P_at(grid, key, corners[c]);
+    const glm::dvec3 across = glm::cross(P_[3] - P_[0], P_[2] - P_[1]);
+    const double area = glm::length(across);
+    if (area > 0) normal_ = across / area;
+  }
 
-/// The largest bend through each vertex, over all keys, along u and v.
-std::vector<float> bends(const Grid& grid) {
-  const int width = grid.u_count + 1, height = grid.v_count + 1;
-  std::vector<float> most(size_t(width) * size_t(height), 0.0f);
-  for (int key = 0; key < grid.key_count(); ++key) {
-    for (int vertex = 0; vertex < width * height; ++vertex) {
-      const int i = vertex % width, j = vertex / width;
-      const auto along = [&](int step) {
-        return bend(vertex_P(grid, key, vertex - step), vertex_P(grid, key, vertex),
-                    vertex_P(grid, key, vertex + step));
-      };
-      float& here = most[size_t(vertex)];
-      if (i > 0 && i + 1 < width) here = std::max(here, along(1));
-      if (j > 0 && j + 1 < height) here = std::max(here, along(width));
+  double diameter() const {
+    double most = 0;
+    for (const auto& s : sides) most = std::max(most, glm::length(P_[s[1]] - P_[s[0]]));
+    return std::max(most, glm::length(P_[2] - P_[1]));
+  }
+
+  // Off the plane only: vertices on edges of grids are moved along the surface, and that is no
+  // bend.
+  double twist() const { return std::abs(glm::dot(P_[0] - P_[1] - P_[2] + P_[3], normal_)); }
+
+  /// The largest second difference at the corners, along u and v.
+  double bend() const {
+    const int width = grid_.u_count + 1;
+    double most = 0;
+    for (int corner : corners_) {
+      const int i = corner % width, j = corner / width;
+      if (i > 0 && i < grid_.u_count) most = std::max(most, second_difference(corner, 1));
+      if (j > 0 && j < grid_.v_count) most = std::max(most, second_difference(corner, width));
     }
+    return most;
   }
-  return most;
-}
 
-/// The corners a, b, c, d of a micropolygon.
-using Corners = std::array<int, 4>;
-
-/// From normals at shutter open: what a grid of one micropolygon has instead of bends.
-float side_deviation(const Grid& grid, const Corners& corners) {
-  constexpr int sides[5][2] = {{0, 1}, {0, 2}, {1, 3}, {2, 3}, {0, 3}};
-  float most = 0;
-  for (const auto& side : sides) {
-    const int from = corners[size_t(side[0])], to = corners[size_t(side[1])];
-    const glm::vec3 e = vertex_P(grid, 0, to) - vertex_P(grid, 0, from);
-    most = std::max(most, std::abs(glm::dot(vertex_N(grid, to) - vertex_N(grid, from), e)) / 8);
+  /// What the normals say along the sides and the diagonal: what a grid of one micropolygon has
+  /// instead of second differences. At shutter open.
+  double turn_along_sides() const {
+    double most = 0;
+    for (const auto& s : sides) {
+      const glm::dvec3 turned = turn(grid_, corners_[s[0]], corners_[s[1]]);
+      most = std::max(most, std::abs(glm::dot(turned, P_[s[1]] - P_[s[0]])));
+    }
+    return most;
   }
-  return most;
-}
+
+ private:
+  static constexpr size_t sides[5][2] = {{0, 1}, {0, 2}, {1, 3}, {2, 3}, {0, 3}};
+
+  double second_difference(int vertex, int step) const {
+    const glm::dvec3 before = P_at(grid_, key_, vertex - step), here = P_at(grid_, key_, vertex),
+                     after = P_at(grid_, key_, vertex + step);
+    return std::abs(glm::dot(before - 2.0 * here + after, normal_));
+  }
+
+  const Grid& grid_;
+  const int key_;
+  const Corners& corners_;
+  std::array<glm::dvec3, 4> P_;
+  glm::dvec3 normal_{0};
+};
 
 }  // namespace
 
 std::vector<NearRange> near_ranges(const Grid& grid) {
-  const std::vector<float> bend_at = bends(grid);
-  const float bend_weight = grid.attributes().displacement ? 1.0f : 1.0f / 8;
+  const bool displaced = grid.attributes().displacement.has_value();
+  const double bend_weight = displaced ? 2 * eighth : eighth;
+  // Polygons are flat, whatever their normals pretend.
+  const bool flat =
+      std::holds_alternative<PolygonMesh>(grid.surface->geometry->shape) && !displaced;
   std::vector<NearRange> ranges(size_t(grid.micropolygon_count()));
   for (uint32_t m = 0; m < ranges.size(); ++m) {
-    const auto first = grid.triangle_corners(2 * m), second = grid.triangle_corners(2 * m + 1);
-    const Corners corners{first[0], first[1], second[2], first[2]};
-    float twist = 0, diameter = 0, bent = 0;
+    const Corners corners = corners_of(grid, m);
+    double twist = 0, diameter = 0, side = 0;
     for (int key = 0; key < grid.key_count(); ++key) {
-      const glm::vec3 a = vertex_P(grid, key, corners[0]), b = vertex_P(grid, key, corners[1]),
-                      c = vertex_P(grid, key, corners[2]), d = vertex_P(grid, key, corners[3]);
-      twist = std::max(twist, glm::length(a - b - c + d) / 4);
-      diameter = std::max({diameter, glm::length(b - a), glm::length(c - a), glm::length(d - b),
-                           glm::length(d - c), glm::length(d - a), glm::length(c - b)});
+      const Measures at(grid, key, corners);
+      twist = std::max(twist, at.twist() / 4);
+      side = std::max(side, at.bend() * bend_weight);
+      if (key == 0 && !flat) side = std::max(side, at.turn_along_sides() * eighth);
+      diameter = std::max(diameter, at.diameter());
     }
-    for (int corner : corners) bent = std::max(bent, bend_at[size_t(corner)]);
-    const float side = std::max(side_deviation(grid, corners), bent * bend_weight);
-    ranges[m].height = safety * std::max(twist, triangle_over_side * side);
-    ranges[m].reach = reach_of_diameter * diameter;
+    ranges[m].height = float(height_of_deviation * std::max(twist, triangle_over_side * side));
+    ranges[m].reach = float(reach_of_diameter * diameter);
   }
   return ranges;
 }

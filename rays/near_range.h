@@ -7,8 +7,9 @@
 
 namespace tessera {
 
-/// A ray that starts on the surface of a micropolygon does not meet that micropolygon if its origin
-/// is within `height` of the plane of the triangle, and within `reach` of where it is met.
+/// A ray that starts on the surface of a micropolygon does not meet that micropolygon where this is
+/// within `reach` of its origin and the origin within `height` of the plane of the triangle. So what
+/// is met of one's own surface nearby is what rises steeply: a fold, or another face at an edge.
 struct NearRange {
   float height = 0;  ///< camera units
   float reach = 0;   ///< camera units
@@ -19,8 +20,8 @@ struct NearRange {
 /// The surface over a segment e between vertices with unit normals m and n deviates from it by
 /// |(n - m) . e| / 8 if it is quadratic, and so by an eighth of the second difference of positions;
 /// over a triangle by 4/3 of the largest of its sides, and over the two triangles of a quadrangle
-/// by its twist, |a - b - c + d| / 4. The height is twice the greatest of these. Displacement may
-/// have details that the vertices miss; what they show of it, undamped, is taken for its size.
+/// by its twist, |a - b - c + d| / 4. Displacement may have details that the vertices miss: second
+/// differences count twice. Normals do not count for polygons, which are flat.
 std::vector<NearRange> near_ranges(const Grid& grid);
 
 }  // namespace tessera

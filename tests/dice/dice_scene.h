@@ -91,6 +91,14 @@ inline PatchMesh bicubic_mesh(int u_vertices = 4, int v_vertices = 4) {
   return mesh;
 }
 
+/// All knots are one: no surface. Takes four points.
+inline NurbsPatch nurbs_without_spans() {
+  NurbsPatch patch;
+  patch.u_vertices = patch.v_vertices = patch.u_order = patch.v_order = 2;
+  patch.u_knots = patch.v_knots = {0, 0, 0, 0};
+  return patch;
+}
+
 inline std::vector<glm::vec3> cube_points() {
   std::vector<glm::vec3> p;
   for (int k = 0; k < 8; ++k) {
