@@ -62,7 +62,7 @@ struct Light {
   std::string handle;  ///< as the scene file names it
   /// Attribute "light" "string shadow" (or "shadows") in force where it is declared; "" = not
   /// given.
-  std::string shadow;
+  std::string shadow{};
 };
 
 /// One image to write. `mode` is rgb, rgba, a, z, or the name of one AOV or more ("rgbaz", "P",
