@@ -22,8 +22,9 @@ constexpr int components = 9;
 /// sees at y is what pixel 0 sees at y + dx / d.
 struct ShearedGaussian {
   double beta_x, eta;
-  /// The light's own Gaussian, of which light_band is two deviations.
-  static constexpr double beta_y = 2.0 / light_band;
+  /// As even over the light as a Gaussian that ends with it can be without losing the shear: of the
+  /// deviations tried it errs least (docs/reconstruction.md).
+  static constexpr double beta_y = 1.0;
 
   /// The spectrum sheared upright lies within W (1 / s_min - 1 / s_max) / 2 of the axis: half the
   /// width that equation 4 prints, which is that of the whole parallelogram. `wedge`: low > 0. eta
