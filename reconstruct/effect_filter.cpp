@@ -56,8 +56,7 @@ class EffectFilter {
   Planes filter_received(RayEffect effect) const;
   void describe_ratio(RayEffect effect, const StackFilterOutput& filtered, Component& out) const;
   std::vector<float> shared_ratios(RayEffect effect, const Component& ratio) const;
-  Planes blend(const Component& component, const Planes* scale,
-               const std::vector<float>* shared) const;
+  Planes blend(const Component& component, const std::vector<float>* shared) const;
 
   const EffectFilterInput& in_;
   const MomentLayout& layout_;
@@ -137,13 +136,13 @@ Planes EffectFilter::through_lens(size_t value) const {
           !good ? plain : (plain >= 0 ? std::max(filtered, 0.0f) : filtered);
     }
   });
-  return blend(component, nullptr, &shared_);
+  return blend(component, &shared_);
 }
 
-Planes EffectFilter::blend(const Component& component, const Planes* scale,
+Planes EffectFilter::blend(const Component& component,
                            const std::vector<float>* shared) const {
   std::vector<float> shares;
-  if (in_.method->guarded()) shares = filtered_shares(component, scale, shared);
+  if (in_.method->guarded()) shares = filtered_shares(component, shared);
   Planes out = component.plain;
   for_pixels([&](size_t p) {
     const float unguarded = !shared || (*shared)[p] != 0.0f ? 1.0f : 0.0f;
@@ -207,8 +206,7 @@ Planes EffectFilter::filter_received(RayEffect effect) const {
     shared = shared_ratios(effect, ratio);
     describe_ratio(effect, filter_stack(stack_input(blur, &shared)), ratio);
   }
-  const Planes scale{mean(unblocked), mean(unblocked + 1), mean(unblocked + 2)};
-  const Planes own_ratio = blend(ratio, &scale, &shared);
+  const Planes own_ratio = blend(ratio, &shared);
   const Planes light = through_lens(unblocked);
   Planes out = through_lens(received);
   for_pixels([&](size_t p) {

@@ -10,19 +10,22 @@ namespace {
 /// Pixels whose squares would come near the end of floats say nothing.
 constexpr float largest_sum = 1e30f;
 
+/// How far the sum of squared differences may exceed what noise explains before it counts as bias:
+/// more than one and a half of its standard deviations over 81 pixels.
+constexpr float chance = 1.4f;
+
 struct Sums {
   std::vector<float> gain;        ///< (1 - w) s2
   std::vector<float> difference;  ///< (F - y)^2
 };
 
-void sum_pixel(const Component& c, const Planes* scale, size_t p, Sums& out) {
+void sum_pixel(const Component& c, size_t p, Sums& out) {
   float gain = 0, difference = 0;
   for (size_t channel = 0; channel < 3; ++channel) {
-    const float s = scale ? (*scale)[channel][p] : 1.0f;
-    const float d = s * (c.filtered[channel][p] - c.plain[channel][p]);
+    const float d = c.filtered[channel][p] - c.plain[channel][p];
     const float variance = c.variance[channel][p];
     difference += d * d;
-    gain += variance < 0 ? d * d : std::max(0.0f, 1 - c.own_weight[p]) * s * s * variance;
+    gain += variance < 0 ? d * d : std::max(0.0f, 1 - c.own_weight[p]) * variance;
   }
   const bool sane = difference < largest_sum && gain < largest_sum;
   out.gain[p] = sane ? gain : 0.0f;
@@ -52,14 +55,14 @@ std::vector<float> window_sums(const std::vector<float>& in, int width, int heig
 
 }  // namespace
 
-std::vector<float> filtered_shares(const Component& component, const Planes* scale,
+std::vector<float> filtered_shares(const Component& component,
                                    const std::vector<float>* shared) {
   const size_t pixels = component.pixels();
   Sums sums{std::vector<float>(pixels), std::vector<float>(pixels)};
   tbb::parallel_for(0, component.height, [&](int y) {
     const size_t first = size_t(y) * size_t(component.width);
     for (size_t p = first; p < first + size_t(component.width); ++p)
-      if (!shared || (*shared)[p] != 0.0f) sum_pixel(component, scale, p, sums);
+      if (!shared || (*shared)[p] != 0.0f) sum_pixel(component, p, sums);
   });
   const std::vector<float> gain = window_sums(sums.gain, component.width, component.height);
   const std::vector<float> difference =
@@ -68,7 +71,7 @@ std::vector<float> filtered_shares(const Component& component, const Planes* sca
   for (size_t p = 0; p < pixels; ++p) {
     const bool outlier = shared && (*shared)[p] == 0.0f;
     if (!outlier && gain[p] > 0)
-      shares[p] = gain[p] >= difference[p] ? 1.0f : gain[p] / difference[p];
+      shares[p] = gain[p] / (gain[p] + std::max(0.0f, difference[p] - chance * gain[p]));
   }
   return shares;
 }

@@ -13,15 +13,15 @@ namespace tessera {
 ///
 ///   s2 + 2 a (w - 1) s2 + a^2 (F - y)^2,  least for  a = (1 - w) s2 / (F - y)^2
 ///
-/// (Stein's unbiased estimate for a linear filter), both summed over the 7 x 7 pixels around and the
+/// (Stein's unbiased estimate for a linear filter), both summed over the 9 x 9 pixels around and the
 /// three channels. As samples grow, s2 falls to 0 and with it the share of a filter that blurs too
-/// much. Where no variance is known the filtered value is trusted.
+/// much. Both sums are noisy themselves, by a quarter of their size, and what the lower one lacks
+/// by chance would let noise through: (F - y)^2 counts only as far as it exceeds (1 - w) s2 by more.
+/// Where no variance is known the filtered value is trusted.
 ///
-/// `scale` (or null) multiplies errors: planes as Component::plain. Pixels that are 0 in `shared`
-/// (or null) say nothing and get 0.
-std::vector<float> filtered_shares(const Component& component, const Planes* scale,
-                                   const std::vector<float>* shared);
+/// Pixels that are 0 in `shared` (or null) say nothing and get 0.
+std::vector<float> filtered_shares(const Component& component, const std::vector<float>* shared);
 
-inline constexpr int guard_reach = 3;
+inline constexpr int guard_reach = 4;
 
 }  // namespace tessera

@@ -101,11 +101,12 @@ BlurLine blur_line(const WedgePlanes& planes, size_t pixel) {
   const float length = std::sqrt(mx * mx + my * my);
   if (!(length > 0)) return line;
   line.dx = mx / length, line.dy = my / length;
-  const auto ends = [](float scale, const AxisWedge& w) {
-    return std::minmax(scale * w.low, scale * w.high);
+  const auto along = [](float scale, const AxisWedge& w) {
+    const float a = scale * w.low, b = scale * w.high;
+    return AxisWedge{std::min(a, b), std::max(a, b)};
   };
-  const std::pair<float, float> ex = ends(line.dx, x), ey = ends(line.dy, y);
-  line.wedge = {ex.first + ey.first, ex.second + ey.second};
+  const AxisWedge wx = along(line.dx, x), wy = along(line.dy, y);
+  line.wedge = {wx.low + wy.low, wx.high + wy.high};
   return line;
 }
 
