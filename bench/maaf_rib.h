@@ -80,7 +80,8 @@ class MaafRib : public RibText {
     attribute([&] {
       if (!request_.stand_in_lights)
         add("AreaLightSource \"arealight\" {} {}", handle, strength(radiance, color));
-      glow(color);
+      // What shines adds its radiance to what the shader says.
+      glow(request_.stand_in_lights ? color : glm::dvec3(0));
       add("Translate {} Sphere {r} {} {r} 360", plain(center), -radius, fmt::arg("r", radius));
     });
     if (request_.stand_in_lights)

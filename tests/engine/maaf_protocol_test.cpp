@@ -80,5 +80,6 @@ TEST_CASE("errors and times of zero give finite places", "[maaf_protocol]") {
     CHECK(place.seconds == 0);
     CHECK(place.capped == 0);
   }
+  CHECK(equal_error(ladder, 0).spp == Approx(16));  // where the error is 0, not before
   CHECK(std::isfinite(at_samples(ladder, 32).seconds));
 }
