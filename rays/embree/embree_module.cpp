@@ -79,7 +79,7 @@ class EmbreeTracer final : public RayTracer {
       if (!trace(ray)) continue;
       const RTCHit& hit = ray.embree.hit;
       const MetGeometry& met = scene_.geometry(hit.geomID);
-      const uint32_t grid = met.grid_of_micropolygon[hit.primID / 2];
+      const uint32_t grid = met.micropolygons[hit.primID / 2].grid;
       hits.distance[i] = ray.distance_of(ray.embree.ray.tfar);
       hits.grid[i] = grid;
       hits.triangle[i] = hit.primID - 2 * met.grids[grid].first_micropolygon;

@@ -116,7 +116,6 @@ void EmbreeScene::describe_grids(const RayScene& scene) {
   for (size_t g = 0; g < grids_.size(); ++g) {
     const float passing = scene.passing[g];
     MetGrid& met = met_grids_[g];
-    met.surface = grids_[g]->surface->id;
     met.opaque = passing <= 0;
     met.blocks = passing < 1;
     if (!met.opaque) met.log2_passing = std::llround(std::log2(double(passing)) * 0x1p32);
@@ -128,9 +127,10 @@ void EmbreeScene::add_geometry(std::span<const uint32_t> grids, RayScene& scene)
   auto met = std::make_unique<MetGeometry>();
   met->grids = met_grids_.data();
   for (uint32_t g : grids) {
-    met_grids_[g].first_micropolygon = uint32_t(met->near.size());
-    met->near.insert(met->near.end(), scene.near[g].begin(), scene.near[g].end());
-    met->grid_of_micropolygon.resize(met->near.size(), g);
+    met_grids_[g].first_micropolygon = uint32_t(met->micropolygons.size());
+    for (const NearRange& near : scene.near[g]) {
+      met->micropolygons.push_back({near, grids_[g]->surface->id, g});
+    }
     scene.near[g] = {};
   }
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -181,7 +181,7 @@ size_t EmbreeScene::memory_bytes() const {
   size_t bytes = size_t(std::max<ssize_t>(0, embree_bytes_)) + met_grids_.size() * sizeof(MetGrid);
   for (const auto& grid : grids_) bytes += grid->memory_bytes();
   for (const auto& geometry : geometries_) {
-    bytes += geometry->near.size() * (sizeof(NearRange) + sizeof(uint32_t));
+    bytes += geometry->micropolygons.size() * sizeof(MetMicropolygon);
   }
   return bytes;
 }
