@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include <tbb/task_arena.h>
+
 #include "base/error.h"
 
 namespace tessera {
@@ -70,7 +72,8 @@ int even_intervals(std::span<const float> times) {
 EmbreeScene::EmbreeScene(RayScene&& scene) {
   grids_ = std::move(scene.grids);
   describe_grids(scene);
-  device_ = rtcNewDevice(fmt::format("threads={}", scene.threads).c_str());
+  // Not its option "threads": that limits everybody's use of TBB as long as the device lives.
+  device_ = rtcNewDevice(nullptr);
   if (!device_) {
     throw Error(fmt::format("Embree does not start: error {}", int(rtcGetDeviceError(nullptr))));
   }
@@ -81,7 +84,7 @@ EmbreeScene::EmbreeScene(RayScene&& scene) {
   for (uint32_t g = 0; g < grids_.size(); ++g) by_keys[grids_[g]->key_times].push_back(g);
   try {
     for (const auto& [times, grids] : by_keys) add_geometry(grids, scene);
-    rtcCommitScene(scene_);
+    tbb::task_arena(scene.threads).execute([this] { rtcCommitScene(scene_); });
     check("building the tree of the scene");
   } catch (...) {
     release();

@@ -147,5 +147,5 @@ TEST_CASE("light passes the product of what its blockers let through", "[rays]")
       CHECK(found.distance[0] == INFINITY);
     }
   }
-  CHECK(partial > 40);
+  CHECK(partial > 20);
 }
