@@ -43,13 +43,31 @@ KeyPosition key_position(std::span<const float> times, float t) {
   return at;
 }
 
+/// The power of two that brings the largest coordinate into [1, 2). What is beyond 1e15 does not
+/// count, or the rest would vanish beside it.
+float scale_of(std::span<const std::shared_ptr<const Grid>> grids) {
+  float most = 0;
+  for (const auto& grid : grids) {
+    for (int key = 0; key < grid->key_count(); ++key) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const float* P = grid->P(key, axis);
+        for (int k = 0; k < grid->vertex_count(); ++k) {
+          const float size = std::abs(P[k]);
+          if (size < 1e15f) most = std::max(most, size);
+        }
+      }
+    }
+  }
+  return most > 0 ? std::ldexp(1.0f, -std::max(std::ilogb(most), -100)) : 1.0f;
+}
+
 /// Vertices of a grid between two keys, as x, y, z, x, y, z, ...
-void write_vertices(const Grid& grid, const KeyPosition& at, float* xyz) {
+void write_vertices(const Grid& grid, const KeyPosition& at, float scale, float* xyz) {
   for (int axis = 0; axis < 3; ++axis) {
     const float* from = grid.P(at.key, axis);
     const float* to = at.weight > 0 ? grid.P(at.key + 1, axis) : from;
     for (int k = 0; k < grid.vertex_count(); ++k) {
-      xyz[3 * k + axis] = from[k] + at.weight * (to[k] - from[k]);
+      xyz[3 * k + axis] = scale * (from[k] + at.weight * (to[k] - from[k]));
     }
   }
 }
@@ -71,6 +89,7 @@ int even_intervals(std::span<const float> times) {
 
 EmbreeScene::EmbreeScene(RayScene&& scene) {
   grids_ = std::move(scene.grids);
+  scale_ = scale_of(grids_);
   describe_grids(scene);
   // Not its option "threads": that limits everybody's use of TBB as long as the device lives.
   device_ = rtcNewDevice(nullptr);
@@ -132,7 +151,8 @@ void EmbreeScene::add_geometry(std::span<const uint32_t> grids, RayScene& scene)
   for (uint32_t g : grids) {
     met_grids_[g].first_micropolygon = uint32_t(met->micropolygons.size());
     for (const NearRange& near : scene.near[g]) {
-      met->micropolygons.push_back({near, grids_[g]->surface->id, g});
+      const NearRange scaled{near.height * scale_, near.reach * scale_};
+      met->micropolygons.push_back({scaled, grids_[g]->surface->id, g});
     }
     scene.near[g] = {};
   }
@@ -174,7 +194,7 @@ void EmbreeScene::fill_vertices(RTCGeometry geometry, std::span<const uint32_t> 
     const float t = intervals > 0 ? float(step) / float(intervals) : 0.0f;
     const KeyPosition at = key_position(times, t);
     for (uint32_t g : grids) {
-      write_vertices(*grids_[g], at, xyz);
+      write_vertices(*grids_[g], at, scale_, xyz);
       xyz += 3 * grids_[g]->vertex_count();
     }
   }

@@ -14,7 +14,7 @@ namespace tessera {
 
 /// What filters know of a micropolygon, together in memory: they are called for many, far apart.
 struct MetMicropolygon {
-  NearRange near;
+  NearRange near;        ///< in Embree's units
   int32_t surface = -1;  ///< Surface::id
   uint32_t grid = 0;     ///< of the scene
 };
@@ -37,7 +37,7 @@ struct MetGeometry {
 struct RayQuery {
   RTCIntersectContext context;  ///< first: Embree hands back a pointer to it
   int32_t surface = -1;         ///< that the origin lies on
-  float height_noise = 0;       ///< height of an origin that may be on any plane; camera units
+  float height_noise = 0;       ///< height of an origin that may be on any plane; Embree's units
 
   /// Of the hit that was kept last. Equal distances go to the smaller name, so that the order in
   /// which Embree looks at triangles, which threads may change, does not matter.
