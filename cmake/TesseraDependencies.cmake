@@ -24,7 +24,7 @@ add_library(OSD::osd SHARED IMPORTED)
 set_target_properties(OSD::osd PROPERTIES IMPORTED_LOCATION ${OSD_CPU_LIBRARY}
                                           INTERFACE_INCLUDE_DIRECTORIES ${OSD_INCLUDE_DIR})
 
-# Embree serves as an oracle in the tests and as the peer in the benchmarks.
+# Embree answers rays, serves as an oracle in the tests and as the peer in the benchmarks.
 find_library(EMBREE_LIBRARY embree3 REQUIRED)
 find_path(EMBREE_INCLUDE_DIR embree3/rtcore.h REQUIRED)
 add_library(Embree::embree SHARED IMPORTED)

@@ -5,6 +5,13 @@
 
 namespace tessera {
 
+namespace {
+
+/// What only rays meet may be this much longer: it shows in shadows and reflected light.
+constexpr double part_out_of_sight = 0.5;
+
+}  // namespace
+
 RasterProjection::RasterProjection(const Camera& camera, const PixelRect& crop)
     : map_(camera.raster_clip()),
       crop_(crop),
@@ -31,6 +38,11 @@ float RasterProjection::visible_w(const glm::vec3& P_camera, float w) const {
   return std::max({w, w_x, w_y, std::max(near_, 1e-20f)});
 }
 
+bool RasterProjection::in_frame(const glm::vec3& P_camera) const {
+  const float w = map_.w_from_z * P_camera.z + map_.w_constant;
+  return w > 0 && visible_w(P_camera, w) <= std::max(w, near_);
+}
+
 float RasterProjection::turned_length(const glm::vec3& a, const glm::vec3& b) const {
   // In double: squares of large or small coordinates leave the range of float.
   const glm::dvec3 from(a), to(b);
@@ -40,7 +52,8 @@ float RasterProjection::turned_length(const glm::vec3& a, const glm::vec3& b) co
         std::min({glm::length(from), glm::length(to), glm::length(0.5 * (from + to))});
     distance = std::max(nearest, double(least_distance_));
   }
-  const double length = pixels_per_unit_ * glm::length(to - from) / distance;
+  const double part = in_frame(a) || in_frame(b) ? 1 : part_out_of_sight;
+  const double length = part * pixels_per_unit_ * glm::length(to - from) / distance;
   return std::isfinite(length) ? float(std::min(length, 1e9)) : 0.0f;
 }
 

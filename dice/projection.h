@@ -18,10 +18,11 @@ class RasterProjection {
   /// behind it, it is zero. Of the frame, not the crop: a crop is diced like the whole.
   ///
   /// After turn_to_eye() instead: the length that the segment would have in the middle of the
-  /// frame, squarely and at its own distance from the eye, whether it is in sight or not.
+  /// frame, squarely and at its own distance from the eye; half of it if both ends are out of the
+  /// frame.
   float segment_length(const glm::vec3& a, const glm::vec3& b) const;
 
-  /// Makes segment_length() independent of where the camera looks. What is nearer than
+  /// Makes segment_length() measure what is out of sight, too. What is nearer than
   /// `least_distance` (camera units, positive) counts as if it were at that distance.
   void turn_to_eye(float least_distance) { least_distance_ = least_distance; }
 
@@ -45,6 +46,7 @@ class RasterProjection {
   /// the frame from some point of the lens.
   float visible_w(const glm::vec3& P_camera, float w) const;
 
+  bool in_frame(const glm::vec3& P_camera) const;
   float turned_length(const glm::vec3& a, const glm::vec3& b) const;
 
   /// Adds one camera-space point through the whole lens; returns false (and adds nothing) when it

@@ -17,11 +17,11 @@ inline constexpr size_t most_micropolygons_of_surface = size_t(1) << 20;
 /// surface share the vertices of their edges like any others.
 ///
 /// A micropolygon's size is that which it would have if it was turned to the eye in the middle of
-/// the frame, at its own distance, so that it does not depend on where the camera looks; nothing
-/// counts as nearer than 1/64 of the largest extent of the scene. A surface that would need more
-/// than `most_micropolygons` is diced coarser as a whole, and reported; its vertices then no longer
-/// agree with those of separate surfaces that it touches. Blur coarsens nothing. Of `settings` the
-/// crop, bucket size and memory budget mean nothing here.
+/// the frame, at its own distance, for rays come from anywhere; out of the frame its sides may be
+/// twice as long. Nothing counts as nearer than 1/64 of the largest extent of the scene. A surface
+/// that would need more than `most_micropolygons` is diced coarser as a whole, and reported; its
+/// vertices then no longer agree with those of separate surfaces that it touches. Blur coarsens
+/// nothing. Of `settings` the crop, bucket size and memory budget mean nothing here.
 ///
 /// Surfaces that cannot be evaluated, and grids with vertices that are not finite, are left out as
 /// by make_grid_source. `scene` must outlive the grids.

@@ -8,8 +8,9 @@
 namespace tessera {
 
 /// A ray that starts on the surface of a micropolygon does not meet that micropolygon where this is
-/// within `reach` of its origin and the origin within `height` of the plane of the triangle. So what
-/// is met of one's own surface nearby is what rises steeply: a fold, or another face at an edge.
+/// within `reach` of its origin and the origin within `height` of the plane of the triangle. So
+/// what is met of one's own surface nearby is what rises steeply: a fold, or another face at an
+/// edge.
 struct NearRange {
   float height = 0;  ///< camera units
   float reach = 0;   ///< camera units

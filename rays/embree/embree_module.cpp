@@ -19,9 +19,9 @@ constexpr float origin_noise = 1e-6f;
 struct PreparedRay {
   RTCRayHit embree;
   RayQuery query;
-  double length = 0;  ///< of the given direction; 0: the ray meets nothing
+  double length = 0;  ///< of the given direction, in Embree's units; 0: the ray meets nothing
 
-  PreparedRay(const Rays& rays, size_t i, RTCFilterFunctionN filter);
+  PreparedRay(const Rays& rays, size_t i, float scale, RTCFilterFunctionN filter);
   float distance_of(float t) const { return float(double(t) / length); }
 };
 
@@ -42,16 +42,17 @@ float last_t_before(float far, double length) {
   return last;
 }
 
-PreparedRay::PreparedRay(const Rays& rays, size_t i, RTCFilterFunctionN filter) {
-  const glm::vec3 o = rays.origin[int(i)], d = rays.direction[int(i)];
+PreparedRay::PreparedRay(const Rays& rays, size_t i, float scale, RTCFilterFunctionN filter) {
+  const glm::vec3 o = scale * rays.origin[int(i)], d = rays.direction[int(i)];
   const bool valid = is_finite(o) && is_finite(d) && rays.far[i] > 0 && !std::isnan(rays.time[i]);
   if (!valid) return;
-  length = glm::length(glm::dvec3(d));
+  const double given = glm::length(glm::dvec3(d));
+  length = given * double(scale);
   if (length == 0) return;
   const float noise = origin_noise * std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)});
   RTCRay& ray = embree.ray;
   ray.org_x = o.x, ray.org_y = o.y, ray.org_z = o.z;
-  ray.dir_x = float(d.x / length), ray.dir_y = float(d.y / length), ray.dir_z = float(d.z / length);
+  ray.dir_x = float(d.x / given), ray.dir_y = float(d.y / given), ray.dir_z = float(d.z / given);
   ray.tnear = noise;
   ray.tfar = last_t_before(rays.far[i], length);
   ray.time = std::clamp(rays.time[i], 0.0f, 1.0f);
@@ -75,11 +76,11 @@ class EmbreeTracer final : public RayTracer {
     hits.grid.assign(count, 0), hits.triangle.assign(count, 0);
     hits.b1.assign(count, 0.0f), hits.b2.assign(count, 0.0f);
     for (size_t i = 0; i < count; ++i) {
-      PreparedRay ray(rays, i, &keep_nearest);
+      PreparedRay ray(rays, i, scene_.scale(), &keep_nearest);
       if (!trace(ray)) continue;
       const RTCHit& hit = ray.embree.hit;
       const MetGeometry& met = scene_.geometry(hit.geomID);
-      const uint32_t grid = met.grid_of_micropolygon[hit.primID / 2];
+      const uint32_t grid = met.micropolygons[hit.primID / 2].grid;
       hits.distance[i] = ray.distance_of(ray.embree.ray.tfar);
       hits.grid[i] = grid;
       hits.triangle[i] = hit.primID - 2 * met.grids[grid].first_micropolygon;
@@ -93,7 +94,7 @@ class EmbreeTracer final : public RayTracer {
     shadows.distance.assign(count, infinity);
     const RTCFilterFunctionN filter = scene_.is_opaque() ? &keep_nearest : &keep_nearest_opaque;
     for (size_t i = 0; i < count; ++i) {
-      PreparedRay ray(rays, i, filter);
+      PreparedRay ray(rays, i, scene_.scale(), filter);
       const bool blocked = trace(ray);
       float nearest = ray.query.nearest_layer_t;
       if (blocked) nearest = std::min(nearest, ray.embree.ray.tfar);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include <tbb/task_arena.h>
+
 #include "base/error.h"
 
 namespace tessera {
@@ -41,13 +43,31 @@ KeyPosition key_position(std::span<const float> times, float t) {
   return at;
 }
 
+/// The power of two that brings the largest coordinate into [1, 2). What is beyond 1e15 does not
+/// count, or the rest would vanish beside it.
+float scale_of(std::span<const std::shared_ptr<const Grid>> grids) {
+  float most = 0;
+  for (const auto& grid : grids) {
+    for (int key = 0; key < grid->key_count(); ++key) {
+      for (int axis = 0; axis < 3; ++axis) {
+        const float* P = grid->P(key, axis);
+        for (int k = 0; k < grid->vertex_count(); ++k) {
+          const float size = std::abs(P[k]);
+          if (size < 1e15f) most = std::max(most, size);
+        }
+      }
+    }
+  }
+  return most > 0 ? std::ldexp(1.0f, -std::max(std::ilogb(most), -100)) : 1.0f;
+}
+
 /// Vertices of a grid between two keys, as x, y, z, x, y, z, ...
-void write_vertices(const Grid& grid, const KeyPosition& at, float* xyz) {
+void write_vertices(const Grid& grid, const KeyPosition& at, float scale, float* xyz) {
   for (int axis = 0; axis < 3; ++axis) {
     const float* from = grid.P(at.key, axis);
     const float* to = at.weight > 0 ? grid.P(at.key + 1, axis) : from;
     for (int k = 0; k < grid.vertex_count(); ++k) {
-      xyz[3 * k + axis] = from[k] + at.weight * (to[k] - from[k]);
+      xyz[3 * k + axis] = scale * (from[k] + at.weight * (to[k] - from[k]));
     }
   }
 }
@@ -69,8 +89,10 @@ int even_intervals(std::span<const float> times) {
 
 EmbreeScene::EmbreeScene(RayScene&& scene) {
   grids_ = std::move(scene.grids);
+  scale_ = scale_of(grids_);
   describe_grids(scene);
-  device_ = rtcNewDevice(fmt::format("threads={}", scene.threads).c_str());
+  // Not its option "threads": that limits everybody's use of TBB as long as the device lives.
+  device_ = rtcNewDevice(nullptr);
   if (!device_) {
     throw Error(fmt::format("Embree does not start: error {}", int(rtcGetDeviceError(nullptr))));
   }
@@ -81,7 +103,7 @@ EmbreeScene::EmbreeScene(RayScene&& scene) {
   for (uint32_t g = 0; g < grids_.size(); ++g) by_keys[grids_[g]->key_times].push_back(g);
   try {
     for (const auto& [times, grids] : by_keys) add_geometry(grids, scene);
-    rtcCommitScene(scene_);
+    tbb::task_arena(scene.threads).execute([this] { rtcCommitScene(scene_); });
     check("building the tree of the scene");
   } catch (...) {
     release();
@@ -116,7 +138,6 @@ void EmbreeScene::describe_grids(const RayScene& scene) {
   for (size_t g = 0; g < grids_.size(); ++g) {
     const float passing = scene.passing[g];
     MetGrid& met = met_grids_[g];
-    met.surface = grids_[g]->surface->id;
     met.opaque = passing <= 0;
     met.blocks = passing < 1;
     if (!met.opaque) met.log2_passing = std::llround(std::log2(double(passing)) * 0x1p32);
@@ -128,9 +149,11 @@ void EmbreeScene::add_geometry(std::span<const uint32_t> grids, RayScene& scene)
   auto met = std::make_unique<MetGeometry>();
   met->grids = met_grids_.data();
   for (uint32_t g : grids) {
-    met_grids_[g].first_micropolygon = uint32_t(met->near.size());
-    met->near.insert(met->near.end(), scene.near[g].begin(), scene.near[g].end());
-    met->grid_of_micropolygon.resize(met->near.size(), g);
+    met_grids_[g].first_micropolygon = uint32_t(met->micropolygons.size());
+    for (const NearRange& near : scene.near[g]) {
+      const NearRange scaled{near.height * scale_, near.reach * scale_};
+      met->micropolygons.push_back({scaled, grids_[g]->surface->id, g});
+    }
     scene.near[g] = {};
   }
   RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -171,7 +194,7 @@ void EmbreeScene::fill_vertices(RTCGeometry geometry, std::span<const uint32_t> 
     const float t = intervals > 0 ? float(step) / float(intervals) : 0.0f;
     const KeyPosition at = key_position(times, t);
     for (uint32_t g : grids) {
-      write_vertices(*grids_[g], at, xyz);
+      write_vertices(*grids_[g], at, scale_, xyz);
       xyz += 3 * grids_[g]->vertex_count();
     }
   }
@@ -181,7 +204,7 @@ size_t EmbreeScene::memory_bytes() const {
   size_t bytes = size_t(std::max<ssize_t>(0, embree_bytes_)) + met_grids_.size() * sizeof(MetGrid);
   for (const auto& grid : grids_) bytes += grid->memory_bytes();
   for (const auto& geometry : geometries_) {
-    bytes += geometry->near.size() * (sizeof(NearRange) + sizeof(uint32_t));
+    bytes += geometry->micropolygons.size() * sizeof(MetMicropolygon);
   }
   return bytes;
 }

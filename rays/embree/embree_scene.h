@@ -32,6 +32,9 @@ class EmbreeScene {
   std::span<const std::shared_ptr<const Grid>> grids() const { return grids_; }
   /// Whether every grid stops all light.
   bool is_opaque() const { return opaque_; }
+  /// Embree's units in a camera unit: a power of two that brings the scene to a size of 1 or 2, for
+  /// Embree multiplies three lengths in float.
+  float scale() const { return scale_; }
   const MetGeometry& geometry(unsigned id) const { return *geometries_[id]; }
   /// Of Embree, the grids and the tables beside them.
   size_t memory_bytes() const;
@@ -50,6 +53,7 @@ class EmbreeScene {
   std::vector<MetGrid> met_grids_;
   std::vector<std::unique_ptr<MetGeometry>> geometries_;  ///< by Embree's id
   bool opaque_ = true;
+  float scale_ = 1;
   std::atomic<ssize_t> embree_bytes_{0};
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;

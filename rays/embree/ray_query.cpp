@@ -16,24 +16,26 @@ struct Proposal {
   const MetGeometry& geometry;
   const RTCRay& ray;
   const RTCHit& hit;
-  const MetGrid& grid;
+  const MetMicropolygon& micropolygon;
 
   explicit Proposal(const RTCFilterFunctionNArguments& arguments)
       : query(*reinterpret_cast<RayQuery*>(arguments.context)),
         geometry(*static_cast<const MetGeometry*>(arguments.geometryUserPtr)),
         ray(*reinterpret_cast<const RTCRay*>(arguments.ray)),
         hit(*reinterpret_cast<const RTCHit*>(arguments.hit)),
-        grid(geometry.grids[geometry.grid_of_micropolygon[hit.primID / 2]]) {}
+        micropolygon(geometry.micropolygons[hit.primID / 2]) {}
+
+  const MetGrid& grid() const { return geometry.grids[micropolygon.grid]; }
 
   /// Whether the origin lies on the surface that this triangle stands for, hereabouts.
   bool is_own_neighbourhood() const {
-    if (grid.surface != query.surface) return false;
+    if (micropolygon.surface != query.surface) return false;
     const float scale = std::max({std::abs(hit.Ng_x), std::abs(hit.Ng_y), std::abs(hit.Ng_z)});
     if (!(scale > 0)) return true;
     const float x = hit.Ng_x / scale, y = hit.Ng_y / scale, z = hit.Ng_z / scale;
     const float along = x * ray.dir_x + y * ray.dir_y + z * ray.dir_z;
     const float height = ray.tfar * std::abs(along) / std::sqrt(x * x + y * y + z * z);
-    const NearRange& near = geometry.near[hit.primID / 2];
+    const NearRange& near = micropolygon.near;
     return height <= query.height_noise || (height <= near.height && ray.tfar <= near.reach);
   }
 
@@ -50,13 +52,13 @@ struct Proposal {
     const float t = ray.tfar, noise = query.height_noise + layer_noise * t;
     const auto end = query.layers.begin() + long(query.layer_count);
     const bool is_known = std::any_of(query.layers.begin(), end, [&](const RayQuery::Layer& l) {
-      return l.surface == grid.surface && std::abs(l.t - t) <= noise;
+      return l.surface == micropolygon.surface && std::abs(l.t - t) <= noise;
     });
     query.nearest_layer_t = std::min(query.nearest_layer_t, t);
     if (is_known) return;
-    query.log2_passing += grid.log2_passing;
+    query.log2_passing += grid().log2_passing;
     if (query.layer_count < query.layers.size()) {
-      query.layers[query.layer_count++] = {grid.surface, t};
+      query.layers[query.layer_count++] = {micropolygon.surface, t};
     }
   }
 };
@@ -71,8 +73,8 @@ void keep_nearest(const RTCFilterFunctionNArguments* arguments) {
 
 void keep_nearest_opaque(const RTCFilterFunctionNArguments* arguments) {
   const Proposal proposal(*arguments);
-  bool met = proposal.grid.blocks && !proposal.is_own_neighbourhood();
-  if (met && !proposal.grid.opaque) {
+  bool met = proposal.grid().blocks && !proposal.is_own_neighbourhood();
+  if (met && !proposal.grid().opaque) {
     proposal.take_down_layer();
     met = false;
   }

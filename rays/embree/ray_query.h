@@ -12,9 +12,15 @@
 
 namespace tessera {
 
+/// What filters know of a micropolygon, together in memory: they are called for many, far apart.
+struct MetMicropolygon {
+  NearRange near;        ///< in Embree's units
+  int32_t surface = -1;  ///< Surface::id
+  uint32_t grid = 0;     ///< of the scene
+};
+
 /// What filters know of a grid.
 struct MetGrid {
-  int32_t surface = -1;             ///< Surface::id
   bool opaque = true;               ///< no light passes
   bool blocks = true;               ///< false: all light passes
   int64_t log2_passing = 0;         ///< log2 of the share that passes, times 2^32, if neither
@@ -24,15 +30,14 @@ struct MetGrid {
 /// User data of an Embree geometry: many grids, one after the other.
 struct MetGeometry {
   const MetGrid* grids = nullptr;              ///< of the scene
-  std::vector<uint32_t> grid_of_micropolygon;  ///< primitive / 2
-  std::vector<NearRange> near;                 ///< [primitive / 2]
+  std::vector<MetMicropolygon> micropolygons;  ///< [primitive / 2]
 };
 
 /// Extends Embree's context by what the filters need. Direction of unit length.
 struct RayQuery {
   RTCIntersectContext context;  ///< first: Embree hands back a pointer to it
   int32_t surface = -1;         ///< that the origin lies on
-  float height_noise = 0;       ///< height of an origin that may be on any plane; camera units
+  float height_noise = 0;       ///< height of an origin that may be on any plane; Embree's units
 
   /// Of the hit that was kept last. Equal distances go to the smaller name, so that the order in
   /// which Embree looks at triangles, which threads may change, does not matter.

@@ -94,6 +94,10 @@ TEST_CASE("opacity is the mean of three, and layers multiply", "[rays]") {
   CHECK(double(look(*tracer, 4).share[0]) == Approx(0.35).epsilon(1e-6));
   CHECK(double(look(*tracer, 4).distance[0]) == Approx(2).epsilon(1e-6));
   CHECK(look(*tracer).share[0] == 0.0f);
+  // Each of the three counts as what it can be.
+  DiceScene beyond;
+  add_square(beyond, 3, with_opacity({6, -3, 0}));
+  CHECK(double(look(*tracer_of(beyond)).share[0]) == Approx(2.0 / 3).epsilon(1e-6));
   // The nearest is met whatever its opacity.
   CHECK(double(closest(*tracer, one_ray({0.1f, 0.2f, 0}, ahead)).distance[0]) ==
         Approx(1).epsilon(1e-6));
