@@ -274,12 +274,12 @@ TEST_CASE("shares are finite on the light, behind it and where it does not reach
 }
 
 TEST_CASE("normals of either sign give the same shares", "[light]") {
-  LitScene scene(call("domelight"));
+  const LitScene scene(call("rectanglelight"));
   const auto xi = spread_places(8);
   const ShareSamples front = shares(scene, {0, 0, 4}, {0, 0, -1}, xi);
   const ShareSamples back = shares(scene, {0, 0, 4}, {0, 0, 1}, xi);
   for (int i = 0; i < 8; ++i) {
-    CHECK(front.share[i].x == Approx(1.0f));
+    CHECK(front.share[i].x == Approx(1.0f).epsilon(0.1));
     CHECK(back.share[i] == front.share[i]);
     CHECK(back.y[0][size_t(i)] == front.y[0][size_t(i)]);
   }
