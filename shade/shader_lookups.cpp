@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "shade/bindings.h"
+#include "shade/latitude_longitude.h"
 #include "shade/mathematics.h"
 #include "shade/normal_spread.h"
 #include "shade/shader.h"
@@ -109,8 +110,8 @@ Vec3Array ShaderContext::environment(const std::string& file, const CellDirectio
       return glm::vec3(world_from_camera * glm::dvec3(v[int(i)]));
     };
     const glm::vec3 d = unit_or_zero(in_world(directions.direction));
-    s[i] = 0.5f - std::atan2(d.y, d.x) / (2.0f * pi);
-    t[i] = std::acos(std::clamp(d.z, -1.0f, 1.0f)) / pi;
+    const glm::vec2 st = st_of_direction(d);
+    s[i] = st.x, t[i] = st.y;
     // A box as wide as sqrt(12) standard deviations has the variance of the scatter.
     const float scatter = directions.scatter[i];
     const float width =

@@ -242,6 +242,24 @@ TEST_CASE("lights: handles, scope, switching and area lights") {
   check_point(glm::dvec3(origin), {0, 0, -5});
 }
 
+TEST_CASE("lights keep the attribute that asks for ray-traced shadows") {
+  const auto result = read_world(R"(
+    LightSource "pointlight" 1
+    AttributeBegin
+      Attribute "light" "string shadow" "on"
+      LightSource "pointlight" 2
+      AreaLightSource "arealight" 3 "float intensity" 2
+    AttributeEnd
+    Attribute "light" "string shadows" ["off"]
+    LightSource "rectanglelight" 4 "float width" 2 "string shadowrate" "pixel"
+    LightSource "domelight" 5)");
+  const Scene& scene = result.scene();
+  REQUIRE(scene.lights.size() == 5);
+  const char* const expected[] = {"", "on", "on", "off", "off"};
+  for (size_t i = 0; i < 5; ++i) CHECK(scene.lights[i].shadow == expected[i]);
+  CHECK(result.warnings.empty());
+}
+
 TEST_CASE("transforms against closed forms") {
   check_point(transformed("Translate 1 2 3", {1, 1, 1}), {2, 3, 4});
   check_point(transformed("Scale 2 3 4", {1, 1, 1}), {2, 3, 4});

@@ -138,6 +138,38 @@ TEST_CASE("under a dome of radiance 1 a matte surface shows 1, whichever way it 
   }
 }
 
+TEST_CASE("a dome's map is looked up in the light's space and multiplies it", "[light]") {
+  /// (z of the direction + 1, whether x > 0, 1) as a latitude-longitude picture, for "sky.tex".
+  struct SkySampler : TextureSampler {
+    TextureResult sample(const TextureRequest& request, const TexturePoints& points,
+                         std::span<float> out) override {
+      if (request.file != "sky.tex") return {false, "no such file"};
+      const size_t n = points.s.size();
+      for (size_t i = 0; i < n; ++i) {
+        const bool ahead = points.s[i] > 0.25f && points.s[i] < 0.75f;
+        out[i] = std::cos(float(M_PI) * points.t[i]) + 1.0f, out[n + i] = ahead, out[2 * n + i] = 1;
+      }
+      return {};
+    }
+  };
+  // The map's z points along camera -z, its x along camera y.
+  const glm::dmat4 from_light({0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, -1, 0}, {5, 6, 7, 1});
+  LitScene scene(
+      call("domelight",
+           {number("samples", 4096), number("intensity", 2), text("texturename", "sky.tex")},
+           from_light));
+  TestScene& test = scene.test;
+  scene.bindings = bind_shaders({&test.scene, test.camera.get(), &test.diagnostics,
+                                 [] { return std::make_shared<SkySampler>(); }});
+  // The mean of 1 + cos with the cosine's density is 1 + 2/3; half lies ahead.
+  const glm::dvec3 up = quadrature(scene.light(), {1, 2, 3}, {0, 0, -1});
+  CHECK(up.x == Approx(2.0 * (5.0 / 3.0)).epsilon(2e-3));
+  CHECK(up.y == Approx(1.0).epsilon(5e-3));
+  CHECK(up.z == Approx(2.0).epsilon(1e-4));
+  CHECK(quadrature(scene.light(), {1, 2, 3}, {0, 1, 0}).y == Approx(2.0).epsilon(5e-3));
+  CHECK(quadrature(scene.light(), {1, 2, 3}, {0, -1, 0}).y == Approx(0.0).margin(5e-3));
+}
+
 TEST_CASE("surface shaders gather the light of places", "[light]") {
   const glm::dmat4 from_light = space({0.5, 0.2, 1.0}, {0, 0, 1}, {1, 1, 1});
   for (const char* rate : {"cell", "sample"}) {
@@ -202,6 +234,14 @@ TEST_CASE("lights of very large and very small size stay what they are", "[light
       CHECK(std::isfinite(quadrature(scene.light(), P, {0, 0, -1}).x));
     }
   }
+  SECTION("so near one of the places that the rest of the light is nothing to it") {
+    const LitScene scene(call("rectanglelight"));
+    const glm::vec2 place = scene.light().places[8] - 0.5f;
+    for (const float height : {1e-3f, 1e-6f, 1e-12f}) {
+      const double found = quadrature(scene.light(), {place, height}, {0, 0, -1}).x;
+      CHECK((found > 1.9 && found < 2.1));  // at most 2 n / n of it
+    }
+  }
   SECTION("on the light itself") {
     for (const char* name : {"rectanglelight", "disclight", "spherelight"}) {
       const LitScene scene(call(name));
@@ -239,6 +279,8 @@ TEST_CASE("lights that can never shine are refused with their place and what is 
   // What is flat anyway may be flattened along its normal.
   CHECK(refusal(call("disclight", {}, glm::scale(identity, glm::dvec3(1, 1, 0)))).empty());
   CHECK(refusal(call("domelight", {number("samples", NAN)}, flat)).empty());
+  CHECK_THAT(refusal(call("domelight", {text("texturename", "sky.tex")}, flat)),
+             StartsWith("scene.rib:7: ") && Contains("inverse"));
 }
 
 TEST_CASE("the places that lights are summed over are stratified", "[light]") {

@@ -17,10 +17,12 @@ TEST_CASE("channel groups are found by name and unknown ones list the choices") 
 }
 
 TEST_CASE("the manual names every shader, light, parameter and channel group") {
-  std::ifstream file(TESSERA_SOURCE_DIR "/docs/shaders.md");
-  REQUIRE(file);
   std::stringstream text;
-  text << file.rdbuf();
+  for (const char* page : {"/docs/shaders.md", "/docs/lights.md"}) {
+    std::ifstream file(std::string(TESSERA_SOURCE_DIR) + page);
+    REQUIRE(file);
+    text << file.rdbuf();
+  }
   const auto named = [&](const std::string& name) {
     INFO(name);
     CHECK(text.str().find("`" + name + "`") != std::string::npos);

@@ -1,0 +1,217 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "shade/emitter.h"
+#include "shade/surface_shading.h"
+#include "tests/shade/light_fixtures.h"
+
+using namespace tessera;
+using namespace tessera::test;
+
+namespace {
+
+/// An area light on one surface, and a tracer that knows it and is blocked by nothing else.
+struct AreaScene {
+  TestScene test;
+  std::shared_ptr<ShaderBindings> bindings;
+  std::shared_ptr<AnalyticBlocker> rays = std::make_shared<AnalyticBlocker>(
+      [](const auto&, const auto&) { return std::numeric_limits<double>::infinity(); });
+  const Surface* shining = nullptr;
+  const Surface* lit = nullptr;
+
+  explicit AreaScene(std::vector<Parameter> parameters, const std::string& name = "arealight") {
+    test.add_light(call(name, std::move(parameters)), true);
+    Attributes attributes;
+    attributes.surface = call("constant");
+    attributes.color = glm::vec3(0.0f);
+    attributes.area_light = 0;
+    shining = &test.add_surface(attributes);
+    lit = &test.add_surface("matte");
+  }
+  void bind() {
+    test.camera = std::make_unique<Camera>(test.scene.camera);
+    bindings = bind_shaders({&test.scene, test.camera.get(), &test.diagnostics, nullptr});
+  }
+  const BoundLight& light() const { return *bindings->of(*lit->attributes).lights.at(0); }
+};
+
+/// A grid over the rectangle centre + (2 u - 1) a + (2 v - 1) b.
+std::shared_ptr<Grid> rectangle_grid(const Surface& surface, int count, const glm::vec3& centre,
+                                     const glm::vec3& a, const glm::vec3& b) {
+  return make_grid(surface, count, count, [=](float u, float v) {
+    return centre + (2.0f * u - 1.0f) * a + (2.0f * v - 1.0f) * b;
+  });
+}
+
+}  // namespace
+
+TEST_CASE("an area light on a rectangle is a rectanglelight", "[light]") {
+  glm::dmat4 from_light = glm::translate(glm::dmat4(1.0), glm::dvec3(0.4, -0.3, 1.0));
+  from_light = glm::rotate(from_light, 0.4, glm::dvec3(0.2, 1.0, 0.1));
+  const LitScene rectangle(call("rectanglelight",
+                                {number("width", 1.2f), number("height", 0.8f),
+                                 number("intensity", 2.0f), number("samples", 64)},
+                                from_light));
+  AreaScene area({number("intensity", 2.0f), number("samples", 64)});
+  const LightExtent& extent = rectangle.light().extent;
+  area.rays->seen_grids = {
+      rectangle_grid(*area.shining, 16, extent.centre, extent.half_axes[0], extent.half_axes[1])};
+  area.bind();
+  area.bindings->use_rays(area.rays);
+  const BoundLight& light = area.light();
+  CHECK(glm::distance(light.extent.centre, extent.centre) < 1e-6f);
+  CHECK(light.extent.area_root == Approx(extent.area_root));
+  double longest = 0.0;
+  for (const glm::vec3& axis : light.extent.half_axes)
+    longest = std::max(longest, double(glm::length(axis)));
+  CHECK(longest == Approx(0.6));
+  for (const glm::vec3& P : {glm::vec3(0, 0, 4), {1, 1, 3}, {-3, 0, 8}, {0.4f, -0.3f, -5}}) {
+    const glm::vec3 N(0, 0, P.z > 0.0f ? -1 : 1);
+    const double expected = quadrature(rectangle.light(), P, N).x;
+    CHECK(quadrature(light, P, N).x == Approx(expected).epsilon(6e-3));  // 64 places of each
+  }
+}
+
+TEST_CASE("outward is what the grid says, and both sides shine on request", "[light]") {
+  for (const float sign : {1.0f, -1.0f}) {
+    for (const float both : {0.0f, 1.0f}) {
+      AreaScene area({number("doublesided", both)});
+      const auto grid = rectangle_grid(*area.shining, 2, {0, 0, 2}, {1, 0, 0}, {0, 1, 0});
+      grid->normal_sign = sign;
+      area.rays->seen_grids = {grid};
+      area.bind();
+      area.bindings->use_rays(area.rays);
+      const bool forward = quadrature(area.light(), {0, 0, 5}, {0, 0, -1}).x > 0.0;
+      const bool backward = quadrature(area.light(), {0, 0, -1}, {0, 0, 1}).x > 0.0;
+      CHECK(forward == (both != 0.0f || sign > 0.0f));
+      CHECK(backward == (both != 0.0f || sign < 0.0f));
+    }
+  }
+}
+
+TEST_CASE("places are drawn evenly over several grids of unequal triangles", "[light]") {
+  TestScene test;
+  const Surface& surface = test.add_surface("matte");
+  // Columns grow wider to the right; together the two grids are [0, 4] x [0, 1].
+  const auto grid_over = [&](float from, float to, int columns) {
+    return make_grid(surface, columns, 3, [=](float u, float v) {
+      return glm::vec3(from + (to - from) * u * u, v, 2.0f);
+    });
+  };
+  const Emitter emitter({grid_over(0, 1, 5), grid_over(1, 4, 7)});
+  CHECK(emitter.triangle_count() == 2 * 3 * 12);
+  CHECK(emitter.extent().area_root == Approx(2.0));
+  CHECK(glm::distance(emitter.extent().centre, glm::vec3(2.0f, 0.5f, 2.0f)) < 1e-6f);
+  const int n = 1 << 16;
+  std::vector<int> count(16, 0);
+  for (const glm::vec2& xi : spread_places(n)) {
+    const LightPlace place = emitter.place(xi, 0.0f);
+    CHECK((place.at.x >= 0.0f && place.at.x <= 4.0f));
+    CHECK(place.normal == glm::vec3(0, 0, 1));
+    const int column = std::min(int(place.at.x * 2.0f), 7), row = place.at.y < 0.5f ? 0 : 1;
+    ++count[size_t(2 * column + row)];
+  }
+  for (const int c : count) CHECK(c == Approx(n / 16).epsilon(0.02));
+}
+
+TEST_CASE("places well spread over [0, 1)^2 are so on a grid", "[light]") {
+  TestScene test;
+  const Emitter emitter(
+      {rectangle_grid(test.add_surface("matte"), 32, {2, 2, 1}, {2, 0, 0}, {0, 2, 0})});
+  std::vector<int> in_square(16, 0);
+  for (const glm::vec2& xi : spread_places(16)) {
+    const glm::vec3 at = emitter.place(xi, 0.0f).at;
+    ++in_square[size_t(int(at.x) * 4 + int(at.y))];
+    // In the middle of its square, but for a micropolygon.
+    CHECK(std::abs(at.x - std::floor(at.x) - 0.5f) < 0.13f);
+    CHECK(std::abs(at.y - std::floor(at.y) - 0.5f) < 0.13f);
+  }
+  for (const int count : in_square) CHECK(count == 1);
+}
+
+TEST_CASE("a moving area light shines from where it is at each point's time", "[light]") {
+  TestScene test;
+  const auto grid = rectangle_grid(test.add_surface("matte"), 1, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+  grid->key_times = {0.0f, 0.5f, 1.0f};
+  const AlignedVector<float> still = grid->P_camera;
+  for (const float offset : {4.0f, 2.0f}) {
+    for (const float p : still) grid->P_camera.push_back(p + offset);
+  }
+  const Emitter emitter({grid});
+  const glm::vec3 start = emitter.place({0.3f, 0.6f}, 0.0f).at;
+  for (const auto& [time, offset] :
+       {std::pair{0.25f, 2.0f}, {0.5f, 4.0f}, {0.75f, 3.0f}, {1.0f, 2.0f}}) {
+    CHECK(glm::distance(emitter.place({0.3f, 0.6f}, time).at, start + offset) < 1e-5f);
+  }
+}
+
+TEST_CASE("triangles without area are left out, and light without any is refused", "[light]") {
+  AreaScene area({});
+  const auto grid = rectangle_grid(*area.shining, 2, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
+  grid->P(0, 0)[0] = NAN;
+  CHECK(Emitter({grid}).triangle_count() == 6);
+  area.bind();
+  const auto refusal = [&](std::shared_ptr<Grid> only) -> std::string {
+    area.rays->seen_grids = {std::move(only)};
+    try {
+      area.bindings->use_rays(area.rays);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string said =
+      refusal(rectangle_grid(*area.shining, 2, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}));
+  CHECK_THAT(said, Catch::StartsWith("scene.rib:7: ") && Catch::Contains("no area"));
+  for (const float size : {1e-12f, 1e12f}) {
+    CHECK(refusal(rectangle_grid(*area.shining, 2, {0, 0, 1}, {size, 0, 0}, {0, size, 0})).empty());
+    const double found = quadrature(area.light(), {0, 0, 1.0f + 2.0f * size}, {0, 0, -1}).x;
+    CHECK((found >= 0.0 && found <= 1.0));
+  }
+}
+
+TEST_CASE("an area light that no surface is part of is dark and says so", "[light]") {
+  TestScene test;
+  test.add_light(call("arealight"), true);
+  test.add_light(call("arealight"));
+  const Surface& surface = test.add_surface("matte");
+  const auto bindings = test.bind();
+  CHECK(bindings->of(*surface.attributes).lights.empty());
+  CHECK_FALSE(wants_rays(*bindings));
+  REQUIRE(test.diagnostics.lines().size() == 2);
+  CHECK(test.warned("scene.rib:7: warning: no surface is part of area light \"arealight\""));
+}
+
+TEST_CASE("area light shaders by other names are area lights, said once", "[light]") {
+  AreaScene area({}, "finite");
+  area.bind();
+  CHECK(area.light().definition->name == "arealight");
+  CHECK(area.test.warned("\"finite\" is taken as an arealight"));
+  // Without rays it is not known where its surfaces are.
+  CHECK(quadrature(area.light(), {0, 0, 5}, {0, 0, -1}).x == 0.0);
+}
+
+TEST_CASE("surfaces of an area light show its radiance on the sides that shine", "[light]") {
+  for (const float both : {0.0f, 1.0f}) {
+    AreaScene area({number("intensity", 3.0f), number("doublesided", both),
+                    triple("lightcolor", ValueType::color, {1, 0.5f, 0})});
+    area.bind();
+    const auto shown = [&](const Surface& surface, float normal_z) {
+      const auto grid = make_square(surface, 1, 3.0f);
+      for (size_t k = 0; k < 4; ++k) grid->N_camera[2 * grid->stride() + k] = normal_z;
+      const GridPoints batch(*grid, area.bindings->camera(), Footprints::none);
+      SurfaceColors colors;
+      ShadeCounters counters;
+      shade_surface(*area.bindings, area.bindings->of(*surface.attributes), batch.points(),
+                    FailedPoint::black, colors, counters);
+      for (const Vec3Array& term : colors.light_terms) CHECK(term[0] == glm::vec3(0.0f));
+      return colors.Ci[0];
+    };
+    CHECK(shown(*area.shining, -1.0f) == glm::vec3(3.0f, 1.5f, 0.0f));
+    CHECK(shown(*area.shining, 1.0f) == both * glm::vec3(3.0f, 1.5f, 0.0f));
+    CHECK(shown(*area.lit, -1.0f) == glm::vec3(0.0f));
+  }
+}
