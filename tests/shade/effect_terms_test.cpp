@@ -187,6 +187,23 @@ TEST_CASE(
   CHECK_THROWS_WITH(shade(yard, bucket), Catch::Contains("SampleExtras"));
 }
 
+TEST_CASE("a share that is not a number brings nothing, and is counted") {
+  class FailingTracer : public BruteTracer {
+   public:
+    using BruteTracer::BruteTracer;
+    void shadow(const Rays& rays, RayShadows& shadows) const override {
+      BruteTracer::shadow(rays, shadows);
+      for (size_t i = 0; i < shadows.share.size(); i += 2) shadows.share[i] = std::nanf("");
+    }
+  };
+  Yard yard({call("occlusionlight")});
+  use_rays(*yard.bindings,
+           std::make_shared<FailingTracer>(std::vector<std::shared_ptr<const Grid>>{}));
+  const Shaded shaded = shade(yard, bucket_of(yard.floor(), {0, 0, 2, 2}, 4));
+  for (size_t f = 0; f < 16; ++f) CHECK(shaded.fragments.Ci[0][f] == (f % 2 == 0 ? 0.0f : 1.0f));
+  CHECK(shaded.counters.nonfinite_dropped == 8);
+}
+
 TEST_CASE("what moves is met where it was when the sample was taken") {
   Yard yard({call("occlusionlight")});
   // A lid close over the whole floor, which slides away in the first half of the shutter: it is as
