@@ -22,6 +22,29 @@ std::vector<BoundLight> direct_lights(const SurfaceBinding& surface) {
   return lights;
 }
 
+/// Where grids meet in a corner of a room, a vertex of one lies on the other, and that would shadow
+/// it. So vertices on the rim are shaded this share of a micropolygon further inside.
+constexpr float inset = 1.0f / 32.0f;
+
+/// The positions of a grid's vertices at shutter open, off the rim.
+Vec3Array inset_positions(const Grid& grid) {
+  Vec3Array P(grid.vertex_count());
+  const int row = grid.u_count + 1;
+  const auto inwards = [](int k, int last, int step) {
+    return k == 0 ? step : (k == last ? -step : 0);
+  };
+  const auto at = [&](int k) {
+    return glm::vec3(grid.P(0, 0)[k], grid.P(0, 1)[k], grid.P(0, 2)[k]);
+  };
+  for (int k = 0; k < grid.vertex_count(); ++k) {
+    const glm::vec3 vertex = at(k);
+    const glm::vec3 along_u = at(k + inwards(k % row, grid.u_count, 1)) - vertex;
+    const glm::vec3 along_v = at(k + inwards(k / row, grid.v_count, row)) - vertex;
+    P.set(k, vertex + inset * (along_u + along_v));
+  }
+  return P;
+}
+
 /// Views from straight over the side, so that shaders turn their normals there.
 Vec3Array views_of_side(const ShadingPoints& points, float side) {
   Vec3Array views(points.count);
@@ -81,7 +104,9 @@ std::vector<glm::vec3> BounceRadiance::shade(const Grid& grid, Side side,
   const GridPoints batch(grid, bindings_.camera(), Footprints::over_micropolygons);
   ShadingPoints points = batch.points();
   const Vec3Array views = views_of_side(points, side == Side::front ? 1.0f : -1.0f);
+  const Vec3Array positions = inset_positions(grid);
   points.I = views;
+  points.P = positions;
   const std::vector<int32_t> surfaces(size_t(points.count), int32_t(grid.surface->id));
   points.surface = surfaces.data();
 

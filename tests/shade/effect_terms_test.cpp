@@ -187,6 +187,23 @@ TEST_CASE(
   CHECK_THROWS_WITH(shade(yard, bucket), Catch::Contains("SampleExtras"));
 }
 
+TEST_CASE("a share that is not a number brings nothing, and is counted") {
+  class FailingTracer : public BruteTracer {
+   public:
+    using BruteTracer::BruteTracer;
+    void shadow(const Rays& rays, RayShadows& shadows) const override {
+      BruteTracer::shadow(rays, shadows);
+      for (size_t i = 0; i < shadows.share.size(); i += 2) shadows.share[i] = std::nanf("");
+    }
+  };
+  Yard yard({call("occlusionlight")});
+  use_rays(*yard.bindings,
+           std::make_shared<FailingTracer>(std::vector<std::shared_ptr<const Grid>>{}));
+  const Shaded shaded = shade(yard, bucket_of(yard.floor(), {0, 0, 2, 2}, 4));
+  for (size_t f = 0; f < 16; ++f) CHECK(shaded.fragments.Ci[0][f] == (f % 2 == 0 ? 0.0f : 1.0f));
+  CHECK(shaded.counters.nonfinite_dropped == 8);
+}
+
 TEST_CASE("what moves is met where it was when the sample was taken") {
   Yard yard({call("occlusionlight")});
   // A lid close over the whole floor, which slides away in the first half of the shutter: it is as
@@ -299,10 +316,10 @@ TEST_CASE("further lights of an effect have nets of their own that tell nothing 
   SamplePattern(16, 5, nullptr, nullptr, {}, {true, true}).fill({3, 2, 35, 34}, block);
   const SamplePlaces first(block, RayEffect::shadow, 0), second(block, RayEffect::shadow, 1),
       third(block, RayEffect::shadow, 2), other(block, RayEffect::bounce, 1);
-  double ab = 0, bc = 0, bd = 0, pixels_ab = 0;
+  double ab = 0, bc = 0, bd = 0, pixels_ab = 0, order = 0;
   const double n = double(block.size());
   for (uint32_t s = 0; s < block.size(); s += 16) {
-    double pixel_a = 0, pixel_b = 0;
+    double pixel_a = 0, pixel_b = 0, within = 0;
     for (const SamplePlaces* places : {&second, &third}) {
       bool hit[4][4] = {}, row[16] = {}, column[16] = {};
       for (uint32_t k = s; k < s + 16; ++k) {
@@ -322,13 +339,17 @@ TEST_CASE("further lights of an effect have nets of their own that tell nothing 
       ab += (a.x - 0.5) * (b.x - 0.5) * 12 / n, bc += (b.x - 0.5) * (c.x - 0.5) * 12 / n;
       bd += (b.y - 0.5) * (d.y - 0.5) * 12 / n;
       pixel_a += a.x - 0.5, pixel_b += b.x - 0.5;
+      within += (a.x - 0.5) * (b.x - 0.5) * 12 / 16;
     }
     // The error of a pixel's 16: each is uniform within 1/16, so the sum has variance 16/12/256.
     pixels_ab += pixel_a * pixel_b / (16.0 / 12 / 256) / (n / 16);
+    order += within * within / (n / 16);
   }
   // 1 / sqrt(16384) = 0.008 a deviation, 1 / sqrt(1024) = 0.031 for pixels; five of them.
   CHECK(std::abs(ab) < 0.04);
   CHECK(std::abs(bc) < 0.04);
   CHECK(std::abs(bd) < 0.04);
   CHECK(std::abs(pixels_ab) < 0.16);
+  // Sixteen pairs in any order: 1/15. In one order, whose first digits agree or all differ: half.
+  CHECK(order < 0.15);
 }

@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
+#include <thread>
 
 #include "shade/bindings.h"
 #include "shade/bounce_radiance.h"
@@ -225,6 +227,63 @@ TEST_CASE("the two sides of a surface are lit apart") {
   CHECK(met[1] == glm::vec3(0.0f));
   CHECK(met[2] == glm::vec3(0.0f));
   CHECK(counters.bounce_points_shaded == 2 * 25);
+}
+
+TEST_CASE("vertices on the rim of a grid are shaded a little inside") {
+  // 1/32 of the micropolygons of 1/2, along both sides of the corner.
+  const double inside = 0.5 / 32;
+  TestScene test;
+  test.add_light(call("pointlight", {triple("from", ValueType::point, {1, 1, 2.99f})}));
+  const Surface& surface = test.add_surface("matte");
+  const auto bindings = test.bind();
+  const auto grid = make_square(surface, 4, 3.0f);
+  set_normals(*grid, [](float, float) { return glm::vec3(0, 0, -1); });
+  const BruteTracer tracer({grid});
+  const BounceRadiance bounce(*bindings, tracer);
+  Rays rays(1);
+  rays.origin.set(0, {1, 1, 0}), rays.direction.set(0, {0, 0, 1});
+  RayHits hits;
+  hits.distance = {3.0f}, hits.grid = {0}, hits.triangle = {2 * 15}, hits.b1 = {0}, hits.b2 = {1};
+  Vec3Array met;
+  ShadeCounters counters;
+  bounce.radiance(rays, hits, met, counters);
+  const double height = 0.01, distance = std::sqrt(2 * inside * inside + height * height);
+  CHECK(double(met[0].x) == Approx(height / std::pow(distance, 3)).epsilon(1e-3));
+}
+
+TEST_CASE("whoever asks first, surfaces are shaded once and look the same") {
+  TestScene test;
+  test.add_light(call("pointlight", {triple("from", ValueType::point, {0.3f, 0.2f, 4})}));
+  const Surface& surface = test.add_surface("marble");
+  const auto bindings = test.bind();
+  std::vector<std::shared_ptr<const Grid>> grids;
+  for (uint32_t face = 0; face < 8; ++face)
+    grids.push_back(make_ball(surface, {0, 0, 4}, 1.0f + 0.01f * float(face), 8, 6));
+  const BruteTracer tracer(grids);
+  Rays rays(64);
+  RayHits hits;
+  hits.distance.assign(64, 1.0f), hits.b1.assign(64, 0.25f), hits.b2.assign(64, 0.5f);
+  for (int i = 0; i < 64; ++i) {
+    rays.direction.set(i, {i % 3 == 0 ? 1.0f : -1.0f, 0.5f, 0.25f});
+    hits.grid.push_back(uint32_t(i) % 8), hits.triangle.push_back(uint32_t(i) + 16);
+  }
+  const BounceRadiance alone(*bindings, tracer), shared(*bindings, tracer);
+  Vec3Array expected;
+  ShadeCounters once;
+  alone.radiance(rays, hits, expected, once);
+  std::array<Vec3Array, 8> met;
+  std::array<ShadeCounters, 8> counters;
+  std::vector<std::thread> threads;
+  for (size_t k = 0; k < 8; ++k)
+    threads.emplace_back([&, k] { shared.radiance(rays, hits, met[k], counters[k]); });
+  for (std::thread& thread : threads) thread.join();
+  uint64_t points = 0;
+  for (size_t k = 0; k < 8; ++k) {
+    points += counters[k].bounce_points_shaded;
+    for (int i = 0; i < 64; ++i) REQUIRE(met[k][i] == expected[i]);
+  }
+  CHECK(points == once.bounce_points_shaded);
+  CHECK(points > 0);
 }
 
 TEST_CASE("rays go on behind transparent surfaces") {
