@@ -127,35 +127,34 @@ TEST_CASE("over two axes wiener counts on the right number of samples", "[method
   // Products over the cases of the mean square errors when told of an eighth of the samples, of all
   // and of eight times as many.
   double products[3] = {1, 1, 1};
+  constexpr int samples = 8;
   for (const AxisWedge& wedge : {AxisWedge{1, 3}, {4, 8}, {-4, 4}}) {
-    for (int samples : {4, 16}) {
-      double bare = 0.0, errors[3] = {};
-      PlateScene scene(wedge, 5);
-      const PlateMoments moments = take_moments(scene, *method, samples);
-      std::vector<double> exact;
-      for (int i = 0; i < size * size; ++i) exact.push_back(scene.pixel(i % size, i / size));
-      for (int choice = 0; choice < 3; ++choice) {
-        std::vector<float> weights(size_t(method->basis_count() * (2 * method->reach() + 1)));
-        method->weights(wedge, float(samples * std::pow(8.0, choice - 1)), weights.data());
-        for (int i = 0; i < size * size; ++i) {
-          const double error =
-              filtered(moments, *method, weights, i % size, i / size) - exact[size_t(i)];
-          errors[choice] += error * error;
-        }
-        products[choice] *= errors[choice];
-      }
+    double bare = 0.0, errors[3] = {};
+    PlateScene scene(wedge, 5);
+    const PlateMoments moments = take_moments(scene, *method, samples);
+    std::vector<double> exact;
+    for (int i = 0; i < size * size; ++i) exact.push_back(scene.pixel(i % size, i / size));
+    for (int choice = 0; choice < 3; ++choice) {
+      std::vector<float> weights(size_t(method->basis_count() * (2 * method->reach() + 1)));
+      method->weights(wedge, float(samples * std::pow(8.0, choice - 1)), weights.data());
       for (int i = 0; i < size * size; ++i) {
-        const double error = moments.seen[moments.at(i % size, i / size)] - exact[size_t(i)];
-        bare += error * error;
+        const double error =
+            filtered(moments, *method, weights, i % size, i / size) - exact[size_t(i)];
+        errors[choice] += error * error;
       }
-      INFO(wedge.low << " " << wedge.high << ", " << samples << " samples, errors " << bare << " "
-                     << errors[0] << " " << errors[1] << " " << errors[2]);
-      CHECK(errors[1] < 0.5 * bare);
-      // One image of 576 pixels tells a case to a quarter or so.
-      CHECK(errors[1] < 1.25 * errors[0]);
-      CHECK(errors[1] < 1.25 * errors[2]);
+      products[choice] *= errors[choice];
     }
+    for (int i = 0; i < size * size; ++i) {
+      const double error = moments.seen[moments.at(i % size, i / size)] - exact[size_t(i)];
+      bare += error * error;
+    }
+    INFO(wedge.low << " " << wedge.high << ", " << samples << " samples, errors " << bare << " "
+                   << errors[0] << " " << errors[1] << " " << errors[2]);
+    CHECK(errors[1] < 0.5 * bare);
+    // One image of 576 pixels tells a case to a quarter or so.
+    CHECK(errors[1] < 1.25 * errors[0]);
+    CHECK(errors[1] < 1.25 * errors[2]);
   }
-  CHECK(products[1] < 0.2 * products[0]);
-  CHECK(products[1] < 0.2 * products[2]);
+  CHECK(products[1] < 0.5 * products[0]);
+  CHECK(products[1] < 0.5 * products[2]);
 }
