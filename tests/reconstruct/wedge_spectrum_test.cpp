@@ -94,6 +94,41 @@ TEST_CASE("fits do not depend on the scale of slopes, nor those of FSF on the we
   CHECK(a.accuracy == Approx(b.accuracy));
 }
 
+TEST_CASE("the sheared filter ends where the wedge does", "[wedge]") {
+  const auto filter = fsf_spectrum({0.7, 2.2});
+  REQUIRE(filter.size() == 1);
+  CHECK(filter[0].shear + filter[0].x_deviation == Approx(1 / 0.7));
+  CHECK(filter[0].shear - filter[0].x_deviation == Approx(1 / 2.2));
+}
+
+TEST_CASE("fsf's kernel is a Gaussian sheared along the wedge", "[wedge][method]") {
+  const auto method = flatland::make_method("fsf");
+  const int reach = method->reach(), row = 2 * reach + 1, count = method->basis_count();
+  std::vector<float> weights(size_t(count * row)), basis(static_cast<size_t>(count));
+  for (const auto& [low, high] : {std::pair{4.0f, 8.0f}, {-10.0f, -5.0f}}) {
+    method->weights({low, high}, 1, weights.data());
+    const auto kernel = [&](int dx, float y) {
+      BasisPoint at;
+      at.y = y;
+      method->basis(at, basis.data());
+      double sum = 0;
+      for (int k = 0; k < count; ++k)
+        sum += weights[size_t(k * row + reach + dx)] * basis[size_t(k)];
+      return sum;
+    };
+    // Upright, the wedge is 4 |1 / low - 1 / high| wide, and the Gaussian's deviation half that.
+    const double along_x = 1 / (2 * std::abs(1.0 / low - 1.0 / high));
+    const double shear = 0.5 * (1.0 / low + 1.0 / high);
+    for (int dx : {-5, -1, 0, 2, 6}) {
+      for (float y : {-0.9f, -0.2f, 0.0f, 0.4f, 1.0f}) {
+        INFO(low << " " << high << " dx " << dx << " y " << y);
+        CHECK(kernel(dx, y) / kernel(0, 0) ==
+              Approx(gaussian(dx, along_x) * gaussian(y + dx * shear, 1.0)).margin(1e-4));
+      }
+    }
+  }
+}
+
 TEST_CASE("more components fit the wedge better", "[wedge]") {
   const DoubleWedge wedge{0.7, 2.2};
   WedgeFit last = gaussian_fit(wedge, aaf_spectrum(wedge));
