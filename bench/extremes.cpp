@@ -1,6 +1,7 @@
 /// The extremes table: where formulas break, what the sheared hider sees there, and what long
 /// double rays and the brute-force hider see.
 
+#include "bench/extremes_reconstruct.h"
 #include "bench/harness/benchmark.h"
 #include "tests/hide/extreme_tally.h"
 
@@ -19,6 +20,7 @@ void run(BenchmarkContext& context) {
                                    {"hider_differences", double(t.hider_differences)},
                                    {"worst_depth_error", t.worst_depth_error}});
   }
+  add_reconstruction_extremes(context);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/harness/benchmark.h"
+#include "bench/maaf_flatland.h"
 #include "reconstruct/wedge_spectrum.h"
 
 namespace tessera {
@@ -71,10 +72,11 @@ inline void add_gaussian_table(BenchmarkContext& context) {
         [&](const DoubleWedge& wedge) { return maaf_spectrum(wedge, components); });
 }
 
-/// Rows `table1/NAME` and `table2/NAME/SHAPE`.
+/// Rows `table1/NAME`, `table2/NAME/SHAPE` and, for what the fits are worth, `flatland/...`.
 inline void add_maaf_tables(BenchmarkContext& context) {
   add_box_table(context);
   add_gaussian_table(context);
+  add_maaf_flatland(context);
 }
 
 }  // namespace tessera

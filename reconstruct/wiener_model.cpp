@@ -72,12 +72,14 @@ PairStatistics::PairStatistics(double low, double high, int components, int reac
       components_(components),
       reach_(reach),
       values_(size_t((2 * components - 1) * components * (2 * reach + 1))) {
-  // Two pixels a panel: errors would show as indefinite matrices at large sample counts.
-  const double farthest = std::max(std::abs(low), std::abs(high));
-  const int panels = std::max(2, int(std::ceil(farthest)));
+  // gamma of a pixel bends where distances are whole pixels: panels that end there, for the largest
+  // shift, keep errors below what large sample counts would show as indefinite matrices.
+  const double farthest = std::max({std::abs(low), std::abs(high), 0.5});
+  const int panels = int(std::ceil(2.0 * farthest));
   for (int i = 0; i < panels; ++i) {
+    const double begin = i / farthest, half = 0.5 * (std::min(2.0, (i + 1) / farthest) - begin);
     for (size_t q = 0; q < gauss_points.size(); ++q)
-      add((2.0 * i + 1.0 + gauss_points[q]) / panels, gauss_weights[q] / panels);
+      add(begin + half * (1.0 + gauss_points[q]), half * gauss_weights[q]);
   }
 }
 

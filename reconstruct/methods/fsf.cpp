@@ -53,11 +53,16 @@ class Sheared : public ReconstructionMethod {
     if (turned.low < 1e-3) return;
     const ShearedGaussian filter(turned);
     const AxisGaussian gaussian(std::min(filter.beta_x, reach() / 3.0), reach());
-    for (int dx = -reach(); dx <= reach(); ++dx) {
+    for (int dx = 0; dx <= reach(); ++dx) {
+      const double height = gaussian(dx);
+      if (height < 1e-5) break;
       const auto expansion = expand(dx * filter.eta);
       for (int k = 0; k < components; ++k) {
-        const double turn = turned.mirrored && k % 2 ? -1.0 : 1.0;
-        out[k * row + reach() + dx] = float(turn * gaussian(dx) * expansion[size_t(k)]);
+        const double turn = k % 2 ? -1.0 : 1.0;
+        const double value = height * expansion[size_t(k)];
+        float* middle = out + k * row + reach();
+        middle[-dx] = float(turned.mirrored ? value : turn * value);
+        middle[dx] = float(turned.mirrored ? turn * value : value);
       }
     }
     const float sum = std::accumulate(out, out + row, 0.0f);

@@ -101,14 +101,23 @@ class MultipleAxisAligned : public ReconstructionMethod {
                          float* sines) const {
     const AxisGaussian gaussian(std::min(1.0 / along_x.deviation, reach() / 3.0), reach());
     double gaussian_sum = 0.0, cosine_sum = 0.0;
-    for (int dx = -reach(); dx <= reach(); ++dx) gaussian_sum += gaussian(dx);
-    for (int dx = -reach(); dx <= reach(); ++dx) {
-      const double value = weight * gaussian(dx) / gaussian_sum, phase = along_x.centre * dx;
-      cosines[reach() + dx] = float(value * std::cos(phase));
-      cosine_sum += value * std::cos(phase);
-      if (sines) sines[reach() + dx] = float((mirrored ? value : -value) * std::sin(phase));
+    for (int dx = 0; dx <= reach(); ++dx) {
+      const double height = weight * gaussian(dx), phase = along_x.centre * dx;
+      const double cosine = height * std::cos(phase), sine = height * std::sin(phase);
+      cosines[reach() - dx] = cosines[reach() + dx] = float(cosine);
+      if (sines) {
+        sines[reach() - dx] = float(mirrored ? -sine : sine);
+        sines[reach() + dx] = float(mirrored ? sine : -sine);
+      }
+      gaussian_sum += (dx > 0 ? 2.0 : 1.0) * gaussian(dx);
+      cosine_sum += (dx > 0 ? 2.0 : 1.0) * cosine;
     }
-    return cosine_sum;
+    const float scale = float(1.0 / gaussian_sum);
+    for (int i = 0; i <= 2 * reach(); ++i) {
+      cosines[i] *= scale;
+      if (sines) sines[i] *= scale;
+    }
+    return cosine_sum / gaussian_sum;
   }
 
   int count_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <string_view>
 #include <utility>
@@ -33,7 +34,8 @@ struct Scene {
     return 1.0;
   }
 
-  /// The share of y in [-1, 1] that is not blocked at x, in closed form: blockers cut intervals out.
+  /// The share of y in [-1, 1] that is not blocked at x, in closed form: blockers cut intervals
+  /// out.
   double exact(double x) const {
     std::vector<std::pair<double, double>> cuts;
     for (const Blocker& b : blockers) {
