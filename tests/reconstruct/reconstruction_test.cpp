@@ -46,12 +46,12 @@ DistributionFrame busy_frame(int width, int height) {
   frame.settings.film.filter_x_width = frame.settings.film.filter_y_width = 2;
   frame.shade = [](SceneSample& s) {
     shade_penumbra(s, 40, 6);
-    s.coc[0] = s.coc[1] = 0.1f * s.y, s.velocity[0] = 0.2f * s.x, s.velocity[1] = 3;
+    s.coc[0] = s.coc[1] = 0.1f * s.y + 0.04f * s.x, s.velocity[0] = 0.2f * s.x, s.velocity[1] = 3;
     SceneSample::Ray& ray = s.rays[1];
     set(ray.unblocked, 0.5f);
     set(ray.received, 0.25f + 0.25f * std::sin(0.3f * (s.x + 8 * ray.y[0])));
     ray.slope = s.y < 10 ? std::numeric_limits<float>::quiet_NaN() : 1;
-    ray.extent[0] = 8, ray.extent[1] = 6;
+    ray.extent[0] = 8 + 0.05f * s.x, ray.extent[1] = 6;
     s.surface = s.x - 0.1f * s.y * s.u[0] < 50 ? 1 : 2;
     s.N[0] = s.surface == 2 ? 0.8f : 0.0f, s.N[2] = s.surface == 2 ? 0.6f : 1.0f;
   };
@@ -262,6 +262,25 @@ TEST_CASE("Fireflies stay where they are", "[reconstruction]") {
       if (std::abs(x - 30) > 1 || std::abs(y - 33) > 1)
         REQUIRE(std::abs(with.channels[0].values[p] - without.channels[0].values[p]) < 0.2f);
     }
+}
+
+TEST_CASE("Rare light in the dark is shared, not an outlier", "[reconstruction]") {
+  DistributionFrame frame(60, 60);
+  frame.settings.features.shadow = true;
+  frame.shade = [](SceneSample& s) {
+    const bool lit = std::abs(s.x - 30) < 1 && std::abs(s.y - 30) < 1 && s.t < 0.5f;
+    set(s.rays[0].unblocked, 1), set(s.rays[0].received, lit ? 1.0f : 0.0f);
+    s.rays[0].slope = 1, s.rays[0].extent[0] = s.rays[0].extent[1] = 10;
+  };
+  frame.samples_per_pixel = 1;
+  const Image plain = frame.render(nullptr), filtered = frame.render(gaussian());
+  const size_t at = plain.index(30, 30);
+  float most = 0;
+  for (const float value : filtered.channels[0].values) most = std::max(most, value);
+  REQUIRE(mean_of(plain) > 0);
+  CHECK(most < 0.05f);
+  CHECK(filtered.channels[0].values[at] > 0);
+  CHECK(mean_of(filtered) == Approx(mean_of(plain)).epsilon(0.01));
 }
 
 TEST_CASE("Hard edges do not ring, and the other side is not shared", "[reconstruction]") {
