@@ -1,6 +1,8 @@
 #include "reconstruct/effect_filter.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <tbb/parallel_for.h>
 
@@ -154,15 +156,19 @@ Planes EffectFilter::blend(const Component& component,
   return out;
 }
 
+/// A ratio of shadows is at most 1, and lone lit samples in the dark are what filters are for: only
+/// what would arrive unblocked can be an outlier there.
 std::vector<float> EffectFilter::shared_ratios(RayEffect effect, const Component& ratio) const {
   std::vector<float> value(pixels_), even_part(pixels_);
-  const size_t received = layout_.received(effect);
+  const bool bounded = effect == RayEffect::shadow;
+  const size_t first = bounded ? layout_.unblocked(effect) : layout_.received(effect);
   for_pixels([&](size_t p) {
     for (size_t c = 0; c < 3; ++c) {
-      const float sum = mean(received + c)[p];
-      value[p] += std::abs(ratio.plain[c][p]);
+      const float sum = mean(first + c)[p];
+      const float size = std::abs(bounded ? sum : ratio.plain[c][p]);
+      value[p] += size;
       if (std::abs(sum) > smallest_divisor)
-        even_part[p] += std::abs(ratio.plain[c][p] * (even(received + c)[p] / sum));
+        even_part[p] += size * std::abs(even(first + c)[p] / sum);
     }
   });
   return shared_pixels(value, even_part, width_, height_, in_.noise_spread);

@@ -82,7 +82,8 @@ class Film::Blocks {
   void finish_bucket(int i, int j);
   void sum_pixel(int x, int y, const View& view, std::vector<PixelSamples>& pixels);
   PixelRect footprint(int x, int y) const;
-  void sum_products_of(int x, int y, const View& view, ProductSums& sums);
+  void sum_products_of(const PixelRect& row, const View& view, ProductSums& sums);
+  const std::vector<float>& sum_products_at(int x, int y, const View& view, ProductSums& sums);
   void gather_footprint(int x, int y, size_t batch, const View& view,
                         std::vector<PixelSamples>& pixels) const;
   const WeightedBlock* block_of(int x, int y, const View& view) const;
@@ -184,7 +185,7 @@ void Film::Blocks::finish_bucket(int i, int j) {
       for (int x = pixels.x0; x < pixels.x1; ++x) sum_pixel(x, y, view, footprint);
     if (ProductSums sums(settings_.products); sums.count() > 0)
       for (int y = pixels.y0; y < pixels.y1; ++y)
-        for (int x = pixels.x0; x < pixels.x1; ++x) sum_products_of(x, y, view, sums);
+        sum_products_of({pixels.x0, y, pixels.x1, y + 1}, view, sums);
   }
   std::lock_guard lock(mutex_);
   slot(i, j).finished = true;
@@ -245,15 +246,30 @@ void Film::Blocks::sum_pixel(int x, int y, const View& view, std::vector<PixelSa
   }
 }
 
-void Film::Blocks::sum_products_of(int x, int y, const View& view, ProductSums& sums) {
+/// A row at a time, so that planes, which lie far apart, are visited once a row.
+void Film::Blocks::sum_products_of(const PixelRect& row, const View& view, ProductSums& sums) {
+  std::vector<float> totals;
+  for (int x = row.x0; x < row.x1; ++x) {
+    const std::vector<float>& pixel = sum_products_at(x, row.y0, view, sums);
+    totals.insert(totals.end(), pixel.begin(), pixel.end());
+  }
+  const size_t at = image_.index(row.x0, row.y0), count = sums.count();
+  for (size_t p = 0; p < count; ++p)
+    for (size_t x = 0; x < size_t(row.width()); ++x) products_[p][at + x] = totals[x * count + p];
+}
+
+/// Pixels that lie next to each other in a bucket are gathered at once.
+const std::vector<float>& Film::Blocks::sum_products_at(int x, int y, const View& view,
+                                                        ProductSums& sums) {
   const PixelRect near = footprint(x, y);
   sums.clear();
-  for (int qy = near.y0; qy < near.y1; ++qy)
-    for (int qx = near.x0; qx < near.x1; ++qx)
-      if (const WeightedBlock* block = block_of(qx, qy, view)) sums.add(*block, x, y, qx, qy);
-  const std::vector<float>& totals = sums.finish();
-  const size_t at = image_.index(x, y);
-  for (size_t p = 0; p < totals.size(); ++p) products_[p][at] = totals[p];
+  for (int qy = near.y0; qy < near.y1; ++qy) {
+    for (int qx = near.x0, end; qx < near.x1; qx = end) {
+      end = std::min(near.x1, sampled().x0 + ((qx - sampled().x0) / size() + 1) * size());
+      if (const WeightedBlock* block = block_of(qx, qy, view)) sums.add(*block, x, y, qx, end, qy);
+    }
+  }
+  return sums.finish();
 }
 
 const WeightedBlock* Film::Blocks::block_of(int x, int y, const View& view) const {

@@ -34,15 +34,20 @@ void ProductSums::reserve(size_t samples) {
   rows_ = std::move(rows), stride_ = wider;
 }
 
-void ProductSums::add(const WeightedBlock& block, int x, int y, int qx, int qy) {
-  const size_t first = block.first_sample(qx, qy), count = block.sample_count(qx, qy);
+void ProductSums::add(const WeightedBlock& block, int x, int y, int qx0, int qx1, int qy) {
+  const size_t begin = block.first_sample(qx0, qy);
+  const size_t end = block.first_sample(qx1 - 1, qy) + block.sample_count(qx1 - 1, qy);
+  const size_t count = end - begin;
   reserve(samples_ + count + lanes);
-  const float* wx = block.x_weights(x - qx) + first;
-  const float* wy = block.y_weights(y - qy) + first;
+  const float* wy = block.y_weights(y - qy);
   float* weights = row(0) + samples_;
-  for (size_t k = 0; k < count; ++k) weights[k] = wx[k] * wy[k];
+  for (int qx = qx0; qx < qx1; ++qx) {
+    const float* wx = block.x_weights(x - qx);
+    const size_t first = block.first_sample(qx, qy), last = first + block.sample_count(qx, qy);
+    for (size_t k = first; k < last; ++k) weights[k - begin] = wx[k] * wy[k];
+  }
   for (size_t c = 0; c < channels_; ++c)
-    std::copy_n(block.carried(c) + first, count, row(1 + c) + samples_);
+    std::copy_n(block.carried(c) + begin, count, row(1 + c) + samples_);
   samples_ += count;
 }
 

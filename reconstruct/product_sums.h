@@ -15,8 +15,8 @@ class ProductSums {
 
   size_t count() const { return totals_.size(); }
   void clear() { samples_ = 0; }
-  /// The samples of pixel (qx, qy) of `block`, weighted towards pixel (x, y).
-  void add(const WeightedBlock& block, int x, int y, int qx, int qy);
+  /// The samples of pixels [qx0, qx1) of row qy of `block`, weighted towards pixel (x, y).
+  void add(const WeightedBlock& block, int x, int y, int qx0, int qx1, int qy);
   /// Every product's weighted mean over what was added; 0 without weight or where not finite.
   const std::vector<float>& finish();
 

@@ -105,13 +105,12 @@ class FilteredReconstruction final : public Reconstruction {
   double filter_s_ = 0;
 };
 
-/// Colours stay linear until they are filtered.
+/// The film's own colours are replaced in the end (write_colors).
 FilmSettings FilteredReconstruction::film_settings() const {
   check_moment_memory(layout_, filtered_rect().pixel_count(), settings_.memory_bytes);
   FilmSettings film = settings_.film;
   film.sampled = sampled();
   film.crop = filtered_rect();
-  film.exposure_gain = film.exposure_gamma = 1;
   film.products = layout_.products();
   return film;
 }

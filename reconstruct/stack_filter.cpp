@@ -48,9 +48,9 @@ class RunWeights {
     const PixelRect& rect = facts.rect();
     const size_t at = facts.index(x, y);
     const WedgePlanes& wedges = facts.wedges[size_t(input_.stack->blur)];
-    own_[column] = 1.0f;
     if (!wedges.known(at)) {
-      store(0, reach_, column, 1.0f);
+      own_[column] = 1.0f;
+      if (used(at, at, axis)) store(0, reach_, column, 1.0f);
       return;
     }
     input_.method->weights(wedges.axis(axis, at), facts.samples[at] * input_.samples_scale,

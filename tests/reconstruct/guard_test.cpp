@@ -1,0 +1,156 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <random>
+
+#include "reconstruct/guard.h"
+#include "reconstruct/outliers.h"
+
+using namespace tessera;
+
+namespace {
+
+/// Noise of a given deviation around 0, filtered to `bias` with no noise left.
+Component noisy(float deviation, float bias, uint32_t seed = 3) {
+  Component component(40, 30);
+  std::mt19937 random(seed);
+  std::normal_distribution<float> normal(0, 1);
+  for (size_t p = 0; p < component.pixels(); ++p)
+    for (size_t c = 0; c < 3; ++c) {
+      component.plain[c][p] = deviation * normal(random);
+      // What two halves would say: a square with one degree of freedom.
+      component.variance[c][p] = deviation * deviation * std::pow(normal(random), 2.0f);
+      component.filtered[c][p] = bias;
+    }
+  return component;
+}
+
+double mean_of(const std::vector<float>& values) {
+  double sum = 0;
+  for (const float value : values) sum += value;
+  return sum / double(values.size());
+}
+
+/// Mean squared error of the blend; the truth is 0.
+double blend_error(const Component& component) {
+  const std::vector<float> shares = filtered_shares(component, nullptr);
+  double sum = 0;
+  for (size_t p = 0; p < shares.size(); ++p)
+    for (size_t c = 0; c < 3; ++c) {
+      const double y = component.plain[c][p];
+      sum += std::pow(y + shares[p] * (component.filtered[c][p] - y), 2);
+    }
+  return sum / double(3 * shares.size());
+}
+
+}  // namespace
+
+TEST_CASE("The guard takes a filter without bias nearly whole", "[guard]") {
+  CHECK(mean_of(filtered_shares(noisy(0.5f, 0), nullptr)) > 0.97);
+}
+
+TEST_CASE("A blend is never much worse than the better of its two", "[guard]") {
+  for (const float bias : {0.0f, 0.1f, 0.3f, 0.5f, 1.0f, 3.0f, 100.0f}) {
+    const double error = blend_error(noisy(0.5f, bias));
+    INFO("bias " << bias << ": error " << error);
+    CHECK(error < 1.15 * std::min(0.25, double(bias) * bias) + 0.01);
+  }
+}
+
+TEST_CASE("As noise falls, the share of a biased filter falls with its square", "[guard]") {
+  const double at_1 = mean_of(filtered_shares(noisy(0.1f, 1), nullptr));
+  const double at_2 = mean_of(filtered_shares(noisy(0.05f, 1), nullptr));
+  CHECK(at_1 == Approx(0.01).epsilon(0.3));
+  CHECK(at_2 == Approx(at_1 / 4).epsilon(0.1));
+  CHECK(mean_of(filtered_shares(noisy(0, 1), nullptr)) == 0);
+}
+
+TEST_CASE("A filter that keeps a pixel's own noise is no gain", "[guard]") {
+  Component component = noisy(0.5f, 2);
+  const double before = mean_of(filtered_shares(component, nullptr));
+  std::fill(component.own_weight.begin(), component.own_weight.end(), 0.75f);
+  CHECK(mean_of(filtered_shares(component, nullptr)) == Approx(before / 4).epsilon(0.1));
+  std::fill(component.own_weight.begin(), component.own_weight.end(), 1.0f);
+  CHECK(mean_of(filtered_shares(component, nullptr)) == 0);
+}
+
+TEST_CASE("Where no variance is known, filters are trusted", "[guard]") {
+  Component component = noisy(0.5f, 2);
+  for (auto& plane : component.variance) std::fill(plane.begin(), plane.end(), -1.0f);
+  CHECK(mean_of(filtered_shares(component, nullptr)) == 1);
+}
+
+TEST_CASE("Outliers and overflowing pixels say nothing to their neighbours", "[guard]") {
+  const Component calm = noisy(0.5f, 0.2f);
+  const std::vector<float> expected = filtered_shares(calm, nullptr);
+  Component wild = calm;
+  const size_t at = 15 * 40 + 20;
+  std::vector<float> shared(calm.pixels(), 1.0f);
+  SECTION("outlier") { wild.plain[1][at] = 1e6f, shared[at] = 0; }
+  SECTION("overflow") { wild.plain[1][at] = 1e30f; }
+  const std::vector<float> shares = filtered_shares(wild, &shared);
+  if (shared[at] == 0.0f) CHECK(shares[at] == 0);
+  for (size_t p = 0; p < shares.size(); ++p)
+    if (p != at) REQUIRE(shares[p] == Approx(expected[p]).margin(0.06));
+}
+
+TEST_CASE("Halves tell the variance of a quotient's noise", "[guard]") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  for (const int even_count : {1, 4, 6}) {
+    // Eight samples of value 0 or 1 and divisor 2: variance 1/4 / 8 / 4.
+    double told = 0;
+    constexpr int runs = 20000;
+    for (int run = 0; run < runs; ++run) {
+      float sum = 0, even = 0;
+      for (int k = 0; k < 8; ++k) {
+        const float value = uniform(random) < 0.5f ? 1.0f : 0.0f;
+        sum += value / 8, even += k < even_count ? value / 8 : 0;
+      }
+      const Quotient q = halves_quotient(sum, even, 2, 2 * float(even_count) / 8);
+      REQUIRE(q.value == sum / 2);
+      told += q.variance / runs;
+    }
+    CHECK(told == Approx(0.25 / 8 / 4).epsilon(0.05));
+  }
+}
+
+TEST_CASE("Quotients are sane at the extremes", "[guard]") {
+  CHECK(halves_quotient(1, 0.5f, 0, 0).value == 0);
+  CHECK(halves_quotient(1, 1, 1, 1).variance < 0);  // one half has everything
+  CHECK(halves_quotient(1, 0, 1, 0).variance < 0);
+  for (const float huge : {1e30f, 3e38f})
+    for (const float divisor : {1e-20f, 1e-19f, 1.0f, 1e30f}) {
+      const Quotient q = halves_quotient(huge, 0, divisor, 0.5f * divisor);
+      CHECK(std::isfinite(q.value));
+      CHECK(std::isfinite(q.variance));
+    }
+}
+
+TEST_CASE("Only lone pixels far beyond those around are outliers", "[guard]") {
+  const int width = 30, height = 20;
+  std::vector<float> value(size_t(width * height), 1.0f), even(value.size(), 0.5f);
+  const auto put = [&](int x, int y, float v, float share) {
+    value[size_t(y * width + x)] = v, even[size_t(y * width + x)] = v * share;
+  };
+  const auto is_shared = [&](int x, int y, int spread = 1) {
+    return shared_pixels(value, even, width, height, spread)[size_t(y * width + x)];
+  };
+  put(10, 10, 1e4f, 1);
+  CHECK(is_shared(10, 10) == 0);
+  CHECK(is_shared(9, 10) == 1);
+  put(11, 10, 5e3f, 1);  // the same sample, a pixel further
+  CHECK(is_shared(10, 10) == 0);
+  CHECK(is_shared(11, 10) == 0);
+  CHECK(is_shared(10, 10, 0) == 1);
+  put(10, 10, 1e4f, 0);
+  CHECK(is_shared(10, 10) == 0);
+  put(10, 10, 1e4f, 0.5f);  // both halves see it: no chance
+  CHECK(is_shared(10, 10) == 1);
+  put(10, 10, 500, 1);
+  CHECK(is_shared(10, 10) == 1);
+  put(10, 10, 1e4f, 1), put(14, 10, 1e4f, 1);  // not alone
+  CHECK(is_shared(10, 10) == 1);
+  put(0, 0, 1e30f, 1);
+  CHECK(is_shared(0, 0) == 0);
+}
