@@ -14,7 +14,7 @@ class Atrium {
     MaafRib rib(request_);
     rib.view({{-1.25, 2.3, -0.9}, {0.4, 3.3, 9}}, 58, 0.13, 9);
     rib.add("WorldBegin");
-    rib.rectangle_light(1, {0, roof + 0.3, bay * bays / 2}, {0, -1, 0}, 5.4, bay * bays - 3, 2.2,
+    rib.rectangle_light(1, {0, roof + 0.3, bay * bays / 2}, {0, -1, 0}, 5.4, bay * bays - 3, 5,
                         {1, 0.95, 0.86});
     rib.bounce(2, 0.4);
     shell(rib);
@@ -92,7 +92,7 @@ class Atrium {
   /// Around the opening, beams across it, the sky above the light.
   void roof_rim(MaafRib& rib) const {
     rib.attribute([&] {
-      rib.glow({0.62, 0.74, 0.9});
+      rib.glow({0.8, 0.95, 1.15});
       rib.quad({-8, roof + 1, -8}, {16, 0, 0}, {0, 0, 32});
     });
     rib.attribute([&] {

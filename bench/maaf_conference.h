@@ -17,7 +17,7 @@ class Conference {
     int handle = 1;
     for (const double z : panel_places)
       rib.rectangle_light(handle++, {0, height - 0.05, z}, {0, -1, 0}, panel_half.x * 2,
-                          panel_half.z * 2, 4.2, {1, 0.96, 0.88});
+                          panel_half.z * 2, 9, {1, 0.96, 0.88});
     rib.bounce(handle, 0.35);
     shell(rib);
     ceiling(rib);

@@ -14,7 +14,7 @@ class StillLife {
     MaafRib rib(request_);
     rib.view({{0.1, 0.5, -1.12}, {0.0, 0.165, 0.05}}, 36, 0.036, 1.2);
     rib.add("WorldBegin");
-    rib.sphere_light(1, {-0.95, 1.15, -0.35}, 0.2, 24, {1, 0.93, 0.82});
+    rib.sphere_light(1, {-0.95, 1.15, -0.35}, 0.2, 50, {1, 0.93, 0.82});
     rib.bounce(2, 0.3);
     room(rib);
     cloth(rib);

@@ -14,7 +14,7 @@ class Toasters {
     MaafRib rib(request_);
     rib.view({{-0.2, 0.62, -1.25}, {0.03, 0.09, 0.15}}, 32, 0.02, 1.4);
     rib.add("WorldBegin");
-    rib.shining_sphere(1, {0.75, 1.25, -0.25}, 0.16, 32, {1, 0.95, 0.88});
+    rib.shining_sphere(1, {0.75, 1.25, -0.25}, 0.16, 50, {1, 0.95, 0.88});
     rib.bounce(2, 0.3);
     room(rib);
     toaster(rib, {-0.3, 0, 0.02}, 24, {0.6, 0.14, 0.1}, 1);
