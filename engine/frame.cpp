@@ -100,6 +100,7 @@ std::unique_ptr<Reconstruction> reconstruction(const FramePlan& plan, const Buck
   settings.method = plan.reconstruct;
   settings.features = plan.distribution();
   settings.threads = threads;
+  if (plan.lens) settings.lens_extent = camera.lens_profile().extent();
   FilmSettings& film = settings.film;
   film.display_window = camera.frame();
   film.crop = camera.crop();
