@@ -103,11 +103,9 @@ class Measures {
 }  // namespace
 
 std::vector<NearRange> near_ranges(const Grid& grid) {
-  const bool displaced = grid.attributes().displacement.has_value();
-  const double bend_weight = displaced ? 2 * eighth : eighth;
   // Polygons are flat, whatever their normals pretend.
-  const bool flat =
-      std::holds_alternative<PolygonMesh>(grid.surface->geometry->shape) && !displaced;
+  const bool flat = std::holds_alternative<PolygonMesh>(grid.surface->geometry->shape) &&
+                    !grid.attributes().displacement;
   std::vector<NearRange> ranges(size_t(grid.micropolygon_count()));
   for (uint32_t m = 0; m < ranges.size(); ++m) {
     const Corners corners = corners_of(grid, m);
@@ -115,7 +113,7 @@ std::vector<NearRange> near_ranges(const Grid& grid) {
     for (int key = 0; key < grid.key_count(); ++key) {
       const Measures at(grid, key, corners);
       twist = std::max(twist, at.twist() / 4);
-      side = std::max(side, at.bend() * bend_weight);
+      side = std::max(side, at.bend() * eighth);
       if (key == 0 && !flat) side = std::max(side, at.turn_along_sides() * eighth);
       diameter = std::max(diameter, at.diameter());
     }

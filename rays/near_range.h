@@ -21,8 +21,9 @@ struct NearRange {
 /// The surface over a segment e between vertices with unit normals m and n deviates from it by
 /// |(n - m) . e| / 8 if it is quadratic, and so by an eighth of the second difference of positions;
 /// over a triangle by 4/3 of the largest of its sides, and over the two triangles of a quadrangle
-/// by its twist, |a - b - c + d| / 4. Displacement may have details that the vertices miss: second
-/// differences count twice. Normals do not count for polygons, which are flat.
+/// by its twist, |a - b - c + d| / 4. Details of a displacement that the vertices
+/// miss show in the second differences that they leave. Normals do not count for polygons, which
+/// are flat.
 std::vector<NearRange> near_ranges(const Grid& grid);
 
 }  // namespace tessera

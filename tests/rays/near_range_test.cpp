@@ -105,7 +105,23 @@ TEST_CASE("near range: a sheet that bends later counts as bent", "[rays]") {
   REQUIRE(grids.front()->u_count >= 4);
   // 0.5 x^2 deviates by h^2 / 8 over a side of h in x.
   const float h = 2.0f / float(grids.front()->u_count * 2);
-  CHECK(largest(grids).height > h * h / 8);
+  for (const auto& grid : grids) {
+    for (const NearRange& range : near_ranges(*grid)) CHECK(range.height > h * h / 8);
+  }
+}
+
+TEST_CASE("near range: a quadrangle that twists later counts as twisted", "[rays]") {
+  DiceScene scene;
+  Geometry g = geometry(PatchMesh{}, {{-1, 0, 3}, {1, 0, 3}, {-1, 0, 5}, {1, 0, 5}});
+  g.key_times = {0, 1};
+  g.P_object.push_back({{-1, 0.5f, 3}, {1, -0.5f, 3}, {-1, -0.5f, 5}, {1, 0.5f, 5}});
+  scene.add(std::move(g));
+  scene.settings.dicing_rate = 1e6f;
+  const Grids grids =
+      dice_whole_scene(scene.scene, Camera(scene.scene.camera), scene.settings, scene.diagnostics);
+  REQUIRE(grids.size() == 1);
+  REQUIRE(grids[0]->micropolygon_count() == 1);
+  CHECK(near_ranges(*grids[0])[0].height > 0.5f);  // between its diagonals
 }
 
 TEST_CASE("near range: a grid of one micropolygon knows its bend from its normals", "[rays]") {

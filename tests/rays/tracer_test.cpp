@@ -118,6 +118,22 @@ TEST_CASE("a ray through edges and vertices meets each layer once", "[rays]") {
   }
 }
 
+TEST_CASE("of surfaces in one place the first is met", "[rays]") {
+  DiceScene scene;
+  for (int k = 0; k < 3; ++k) add_square(scene, 3);
+  RaySettings settings;
+  settings.dicing_rate = 30;
+  const auto tracer = tracer_of(scene, settings);
+  std::mt19937 random(12);
+  std::uniform_real_distribution<float> x(-0.9f, 0.9f);
+  for (int k = 0; k < 200; ++k) {
+    const float a = x(random), b = x(random);
+    const RayHits hits = closest(*tracer, one_ray({0, 0, 0}, {a, b, 3}));
+    REQUIRE(hits.distance[0] < INFINITY);
+    CHECK(tracer->grids()[hits.grid[0]]->surface->id == 0);
+  }
+}
+
 TEST_CASE("surfaces can be kept from blocking light", "[rays]") {
   Parameter number, word, on;
   number.numbers = {0};
