@@ -95,6 +95,10 @@ Emitter::Emitter(std::vector<std::shared_ptr<const Grid>> grids) : grids_(std::m
   if (!empty()) measure();
 }
 
+bool Emitter::moves() const {
+  return std::ranges::any_of(grids_, [](const auto& grid) { return grid->key_count() > 1; });
+}
+
 void Emitter::add_triangle(uint32_t grid, uint32_t triangle) {
   const double area = 0.5 * glm::length(doubled_area(corners_at(*grids_[grid], triangle, 0.0f)));
   if (!(area > 0.0) || !std::isfinite(area)) return;
