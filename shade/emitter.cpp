@@ -13,6 +13,7 @@ namespace tessera {
 namespace {
 
 using Corners = std::array<glm::vec3, 3>;
+using Frame = std::array<glm::dvec3, 3>;
 
 /// A triangle's corners at a shutter time, straight between the keys.
 Corners corners_at(const Grid& grid, uint32_t triangle, float time) {
@@ -75,8 +76,6 @@ glm::vec2 triangle_from_square(glm::vec2 xi) {
   return xi;
 }
 
-using Frame = std::array<glm::dvec3, 3>;
-
 /// An edge, what is across it in the triangle, and the normal: natural axes of most flat shapes.
 Frame frame_of(const Corners& p) {
   const glm::dvec3 normal = glm::normalize(doubled_area(p));
@@ -95,6 +94,10 @@ Emitter::Emitter(std::vector<std::shared_ptr<const Grid>> grids) : grids_(std::m
   if (!empty()) measure();
 }
 
+bool Emitter::moves() const {
+  return std::ranges::any_of(grids_, [](const auto& grid) { return grid->key_count() > 1; });
+}
+
 void Emitter::add_triangle(uint32_t grid, uint32_t triangle) {
   const double area = 0.5 * glm::length(doubled_area(corners_at(*grids_[grid], triangle, 0.0f)));
   if (!(area > 0.0) || !std::isfinite(area)) return;
@@ -102,37 +105,48 @@ void Emitter::add_triangle(uint32_t grid, uint32_t triangle) {
   area_up_to_.push_back(area + (area_up_to_.empty() ? 0.0 : area_up_to_.back()));
 }
 
-void Emitter::measure() {
-  const auto corners = [&](size_t k) {
-    return corners_at(*grids_[triangles_[k].grid], triangles_[k].triangle, 0.0f);
-  };
+Corners Emitter::corners(size_t triangle, float time) const {
+  const Triangle& of = triangles_[triangle];
+  return corners_at(*grids_[of.grid], of.triangle, time);
+}
+
+glm::dvec3 Emitter::centroid() const {
   glm::dvec3 moment(0.0);
+  double before = 0.0;
   for (size_t k = 0; k < triangles_.size(); ++k) {
-    const Corners p = corners(k);
-    const double area = area_up_to_[k] - (k > 0 ? area_up_to_[k - 1] : 0.0);
-    moment += area / 3.0 * (glm::dvec3(p[0]) + glm::dvec3(p[1]) + glm::dvec3(p[2]));
+    const Corners p = corners(k, 0.0f);
+    moment +=
+        (area_up_to_[k] - before) / 3.0 * (glm::dvec3(p[0]) + glm::dvec3(p[1]) + glm::dvec3(p[2]));
+    before = area_up_to_[k];
   }
-  const glm::dvec3 centre = moment / area_up_to_.back();
+  return moment / before;
+}
+
+glm::dvec3 Emitter::reach(const glm::dvec3& centre, const Frame& frame) const {
+  glm::dvec3 reach(0.0);
+  for (size_t k = 0; k < triangles_.size(); ++k) {
+    for (const glm::vec3& p : corners(k, 0.0f)) {
+      const glm::dvec3 offset = glm::dvec3(p) - centre;
+      for (int a = 0; a < 3; ++a) {
+        reach[a] = std::max(reach[a], std::abs(glm::dot(offset, frame[size_t(a)])));
+      }
+    }
+  }
+  return reach;
+}
+
+void Emitter::measure() {
+  const glm::dvec3 centre = centroid();
   extent_.centre = glm::vec3(centre);
   extent_.area_root = float(std::sqrt(area_up_to_.back()));
   double least = std::numeric_limits<double>::infinity();
   const Frame of_camera{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
-  for (const Frame& frame : {frame_of(corners(0)), of_camera}) {
-    glm::dvec3 reach(0.0);
-    for (size_t k = 0; k < triangles_.size(); ++k) {
-      for (const glm::vec3& p : corners(k)) {
-        for (int a = 0; a < 3; ++a) {
-          reach[a] =
-              std::max(reach[a], std::abs(glm::dot(glm::dvec3(p) - centre, frame[size_t(a)])));
-        }
-      }
-    }
-    const double surface = reach.x * reach.y + reach.y * reach.z + reach.z * reach.x;
+  for (const Frame& frame : {frame_of(corners(0, 0.0f)), of_camera}) {
+    const glm::dvec3 r = reach(centre, frame);
+    const double surface = r.x * r.y + r.y * r.z + r.z * r.x;
     if (!(surface < least)) continue;
     least = surface;
-    for (int a = 0; a < 3; ++a) {
-      extent_.half_axes[size_t(a)] = glm::vec3(reach[a] * frame[size_t(a)]);
-    }
+    for (int a = 0; a < 3; ++a) extent_.half_axes[size_t(a)] = glm::vec3(r[a] * frame[size_t(a)]);
   }
 }
 
@@ -142,10 +156,9 @@ LightPlace Emitter::place(glm::vec2 xi, float time) const {
   const size_t k = std::min(size_t(found - area_up_to_.begin()), triangles_.size() - 1);
   const double before = k > 0 ? area_up_to_[k - 1] : 0.0;
   const double within = (wanted - before) / (area_up_to_[k] - before);
-  const Grid& grid = *grids_[triangles_[k].grid];
-  const Corners p = corners_at(grid, triangles_[k].triangle, time);
+  const Corners p = corners(k, time);
   const glm::vec2 at = triangle_from_square({std::clamp(float(within), 0.0f, 1.0f), xi.y});
-  const glm::dvec3 normal = double(grid.normal_sign) * doubled_area(p);
+  const glm::dvec3 normal = double(grids_[triangles_[k].grid]->normal_sign) * doubled_area(p);
   const double length = glm::length(normal);
   return {p[0] + at.x * (p[1] - p[0]) + at.y * (p[2] - p[0]),
           length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f)};

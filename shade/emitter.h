@@ -19,6 +19,8 @@ class Emitter {
   explicit Emitter(std::vector<std::shared_ptr<const Grid>> grids);
 
   bool empty() const { return triangles_.empty(); }
+  /// Whether any of it moves while the shutter is open.
+  bool moves() const;
   size_t triangle_count() const { return triangles_.size(); }
   /// At shutter open, camera units: the centroid of the area, a box around it and the area itself.
   /// Of an empty emitter nothing is known.
@@ -34,6 +36,12 @@ class Emitter {
     uint32_t grid, triangle;
   };
   void add_triangle(uint32_t grid, uint32_t triangle);
+  std::array<glm::vec3, 3> corners(size_t triangle, float time) const;
+  glm::dvec3 centroid() const;
+  /// How far the surfaces reach from `centre` along each of three unit vectors.
+  glm::dvec3 reach(const glm::dvec3& centre, const std::array<glm::dvec3, 3>& frame) const;
+  /// Fills the extent; of two boxes, along the first triangle and along the camera's axes, the one
+  /// with the smaller surface.
   void measure();
 
   std::vector<std::shared_ptr<const Grid>> grids_;

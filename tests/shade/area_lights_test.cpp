@@ -141,11 +141,39 @@ TEST_CASE("a moving area light shines from where it is at each point's time", "[
     for (const float p : still) grid->P_camera.push_back(p + offset);
   }
   const Emitter emitter({grid});
+  CHECK(emitter.moves());
   const glm::vec3 start = emitter.place({0.3f, 0.6f}, 0.0f).at;
   for (const auto& [time, offset] :
        {std::pair{0.25f, 2.0f}, {0.5f, 4.0f}, {0.75f, 3.0f}, {1.0f, 2.0f}}) {
     CHECK(glm::distance(emitter.place({0.3f, 0.6f}, time).at, start + offset) < 1e-5f);
   }
+}
+
+TEST_CASE("points of one batch see a moving area light each at its own time", "[light]") {
+  AreaScene area({});
+  const auto grid = rectangle_grid(*area.shining, 1, {0, 0, 1}, {0.5f, 0, 0}, {0, 0.5f, 0});
+  grid->key_times = {0.0f, 1.0f};
+  const AlignedVector<float> still = grid->P_camera;
+  for (const float p : still) grid->P_camera.push_back(p + 2.0f);
+  area.rays->seen_grids = {grid};
+  area.bind();
+  area.bindings->use_rays(area.rays);
+  BarePoints at({{0, 0, 6}, {0, 0, 6}, {0, 0, 6}}, {0, 0, -1});
+  const std::vector<float> times{0.0f, 0.5f, 1.0f};
+  at.points.time = times.data();
+  const auto from_places = [&](const std::vector<glm::vec2>& xi) {
+    PlaceSamples from;
+    from.reset(3);
+    area.light().definition->illuminate_from(area.light(), at.points, xi, from);
+    return from;
+  };
+  const PlaceSamples same = from_places({{0.3f, 0.6f}, {0.3f, 0.6f}, {0.3f, 0.6f}});
+  for (int i = 1; i < 3; ++i) {
+    CHECK(glm::distance(same.towards[i], same.towards[0] + 2.0f * times[size_t(i)]) < 1e-5f);
+  }
+  const PlaceSamples other = from_places({{0.3f, 0.6f}, {0.8f, 0.6f}, {0.3f, 0.6f}});
+  CHECK(glm::distance(other.towards[1], same.towards[1]) > 0.1f);
+  CHECK(other.towards[2] == same.towards[2]);
 }
 
 TEST_CASE("triangles without area are left out, and light without any is refused", "[light]") {
