@@ -24,7 +24,7 @@ struct MaafSceneRequest {
   bool stand_in_lights = false;
 };
 
-/// A surface that reflects `radiance_share` of white light in a colour, by `matte`.
+/// The share of each colour of light that a surface reflects.
 using Albedo = glm::dvec3;
 
 class MaafRib : public RibText {

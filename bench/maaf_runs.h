@@ -47,7 +47,7 @@ struct MaafRun {
 
 class MaafRuns {
  public:
-  /// `method` of Settings::reconstruct; empty: what the renderer does by default.
+  /// Methods are those of Settings::reconstruct; "": what the renderer does by default.
   static constexpr const char *unfiltered = "filter", *aaf = "aaf";
 
   /// The converged frame has `reference_spp` samples of its own.
