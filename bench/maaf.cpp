@@ -12,10 +12,7 @@
 #include "bench/harness/benchmark.h"
 #include "bench/maaf_runs.h"
 #include "bench/maaf_scenes.h"
-#if __has_include("bench/maaf_tables.h")
 #include "bench/maaf_tables.h"
-#define TESSERA_MAAF_TABLES 1
-#endif
 
 namespace tessera {
 namespace {
@@ -57,9 +54,7 @@ class MaafBenchmark {
         scene_.empty() ? maaf_scene_names() : std::vector<std::string>{scene_};
     for (const std::string& name : names) measure(name);
     for (const auto& [spp, rows] : measured_) add_average(spp, rows);
-#ifdef TESSERA_MAAF_TABLES
     if (scene_.empty()) add_maaf_tables(context_);
-#endif
   }
 
  private:

@@ -31,7 +31,7 @@ class FrameStatistics {
   }
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double setup_s_ = 0, filter_s_ = 0;
+  double setup_s_ = 0, filter_s_ = 0, bound_samples_ = 0;
   std::mutex mutex_;
   StageTimes times_;
   HideCounters hide_;

@@ -58,6 +58,11 @@ class PixelFacts {
   PixelRect rect_;
 };
 
+/// Reconstruction::bound_samples() of the pixels of `crop`, within the rectangle of `facts`. Each
+/// ray effect acts together with lens and motion; of the two effects the one that asks for more
+/// counts.
+double mean_bound_samples(const PixelFacts& facts, const PixelRect& crop);
+
 /// The facts of `rect` with wedges averaged over the 5 x 5 pixels around (L. Wu et al. 2017, section
 /// 6.2): lows and highs apart, over the pixels that have them; those of ray effects over pixels that
 /// show the same surface.

@@ -118,6 +118,11 @@ class Reconstruction {
   /// As Film::finish().
   virtual Image finish() = 0;
   virtual FilmCounters counters() const = 0;
+  /// Samples a pixel that axis-aligned filtering asks for by its own bound
+  /// (reconstruct/sampling_rate.h): the mean over the pixels of the crop, each counted with no fewer
+  /// than it had and no more than most_bound_samples. After finish(); 0 where nothing was filtered.
+  virtual double bound_samples() const { return 0; }
+  static constexpr double most_bound_samples = 256;
   virtual double filter_s() const { return 0; }  ///< seconds that finish() spent filtering
 };
 

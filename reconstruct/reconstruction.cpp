@@ -83,6 +83,7 @@ class FilteredReconstruction final : public Reconstruction {
 
   FilmCounters counters() const override { return film_.counters(); }
   double filter_s() const override { return filter_s_; }
+  double bound_samples() const override { return bound_samples_; }
 
  private:
   PixelRect sampled() const {
@@ -102,7 +103,7 @@ class FilteredReconstruction final : public Reconstruction {
   size_t color_group_;
   PixelFacts facts_;
   Film film_;
-  double filter_s_ = 0;
+  double filter_s_ = 0, bound_samples_ = 0;
 };
 
 /// The film's own colours are replaced in the end (write_colors).
@@ -119,6 +120,7 @@ void FilteredReconstruction::finish_image(const Image& all, Image& image) {
   Planes planes = film_.take_products();
   for (std::vector<float>& plane : planes) plane.resize(plane.size() + tap_run);
   const PixelFacts facts = smoothed(facts_, all.data_window);
+  bound_samples_ = mean_bound_samples(facts, settings_.film.crop);
   EffectFilterInput input{&layout_, method_.get(), &facts, &planes, {}, 1};
   const FilmSettings& film = settings_.film;
   input.correlation = {autocorrelation(film, film.filter_x_width),
