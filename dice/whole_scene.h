@@ -16,8 +16,8 @@ inline constexpr size_t most_micropolygons_of_surface = size_t(1) << 20;
 /// splits, lower halves first. They are the same bits for any number of threads, and those of one
 /// surface share the vertices of their edges like any others.
 ///
-/// A micropolygon has the size that is asked for where it is seen squarely. What is foreshortened or
-/// out of the frame counts as half as long as if it was turned to the eye in the middle of the
+/// A micropolygon has the size that is asked for where it is seen squarely. What is foreshortened
+/// or out of the frame counts as half as long as if it was turned to the eye in the middle of the
 /// frame, at its own distance, for rays come from anywhere. Nothing counts as nearer than 1/64 of
 /// the largest extent of the scene. A surface that would need more than `most_micropolygons` is
 /// diced coarser as a whole, and reported; its vertices then no longer agree with those of separate
