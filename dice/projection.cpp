@@ -7,8 +7,8 @@ namespace tessera {
 
 namespace {
 
-/// What only rays meet may be this much longer: it shows in shadows and reflected light.
-constexpr double part_out_of_sight = 0.5;
+/// What is foreshortened or out of sight shows in shadows and reflected light only.
+constexpr double least_part = 0.5;
 
 }  // namespace
 
@@ -52,13 +52,17 @@ float RasterProjection::turned_length(const glm::vec3& a, const glm::vec3& b) co
         std::min({glm::length(from), glm::length(to), glm::length(0.5 * (from + to))});
     distance = std::max(nearest, double(least_distance_));
   }
-  const double part = in_frame(a) || in_frame(b) ? 1 : part_out_of_sight;
-  const double length = part * pixels_per_unit_ * glm::length(to - from) / distance;
+  const double length = least_part * pixels_per_unit_ * glm::length(to - from) / distance;
   return std::isfinite(length) ? float(std::min(length, 1e9)) : 0.0f;
 }
 
 float RasterProjection::segment_length(const glm::vec3& a, const glm::vec3& b) const {
-  if (least_distance_ > 0) return turned_length(a, b);
+  if (!(least_distance_ > 0)) return seen_length(a, b);
+  const float turned = turned_length(a, b);
+  return in_frame(a) && in_frame(b) ? std::max(turned, seen_length(a, b)) : turned;
+}
+
+float RasterProjection::seen_length(const glm::vec3& a, const glm::vec3& b) const {
   float w_a = map_.w_from_z * a.z + map_.w_constant;
   float w_b = map_.w_from_z * b.z + map_.w_constant;
   if (w_a <= 0 && w_b <= 0) return 0;

@@ -17,9 +17,9 @@ class RasterProjection {
   /// would enter it. So the estimate is bounded where a segment nears or crosses the camera plane;
   /// behind it, it is zero. Of the frame, not the crop: a crop is diced like the whole.
   ///
-  /// After turn_to_eye() instead: the length that the segment would have in the middle of the
-  /// frame, squarely and at its own distance from the eye; half of it if both ends are out of the
-  /// frame.
+  /// After turn_to_eye() instead: half the length that the segment would have in the middle of the
+  /// frame, squarely and at its own distance from the eye, or, if both ends are in the frame and it
+  /// looks longer, what it looks like.
   float segment_length(const glm::vec3& a, const glm::vec3& b) const;
 
   /// Makes segment_length() measure what is out of sight, too. What is nearer than
@@ -47,6 +47,7 @@ class RasterProjection {
   float visible_w(const glm::vec3& P_camera, float w) const;
 
   bool in_frame(const glm::vec3& P_camera) const;
+  float seen_length(const glm::vec3& a, const glm::vec3& b) const;
   float turned_length(const glm::vec3& a, const glm::vec3& b) const;
 
   /// Adds one camera-space point through the whole lens; returns false (and adds nothing) when it
