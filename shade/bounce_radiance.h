@@ -16,10 +16,10 @@ class ShaderBindings;
 struct ShadeCounters;
 
 /// Each side of a grid is shaded once, all its vertices in one batch as they are at shutter open (a
-/// little inside where they lie on the rim of the grid), by whichever ray first meets it; what comes
-/// out does not depend on which that was. Shadows are looked up at the vertices, distributed lights
-/// summed over their fixed places, and surfaces that shine do not show it: area lights are direct
-/// light already. Thread safe.
+/// little inside where they lie on the rim of the grid), by whichever ray first meets it; what
+/// comes out does not depend on which that was. Shadows are looked up at the vertices, distributed
+/// lights summed over their fixed places, and surfaces that shine do not show it: area lights are
+/// direct light already. Thread safe.
 class BounceRadiance {
  public:
   /// Both must outlive this.

@@ -55,8 +55,8 @@ struct ShaderServices {
   std::span<const BoundLight* const> lights{};
   FrameTextures* textures = nullptr;
   ShadeCounters* counters = nullptr;
-  /// Whether light is only wanted that the surface sends out alike in all directions: highlights and
-  /// reflections are zero then.
+  /// Whether only light is wanted that the surface sends out alike in all directions: highlights
+  /// and reflections are zero then.
   bool diffuse_only = false;
 };
 
