@@ -54,7 +54,7 @@ ProductCoefficients product_coefficients(int j, int k) {
   ProductCoefficients c{};
   std::array<double, max_product_degrees> p{};
   for (int l = 0; l <= j + k; ++l) {
-    c[size_t(l)] = 0.5 * (2 * l + 1) * gauss_integral(-1.0, 1.0, 2, [&](double y) {
+    c[size_t(l)] = 0.5 * (2 * l + 1) * gauss_integral(-1.0, 1.0, 4, [&](double y) {
                      legendre(y, max_product_degrees, p.data());
                      return p[size_t(j)] * p[size_t(k)] * p[size_t(l)];
                    });

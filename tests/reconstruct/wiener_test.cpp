@@ -190,6 +190,29 @@ TEST_CASE("linear systems are solved", "[wiener]") {
   for (size_t i = 0; i < size; ++i) CHECK(x[i] == Approx(double(expected[i])).epsilon(1e-9));
 }
 
+TEST_CASE("systems stay definite for equal slopes, many samples and seven components", "[wiener]") {
+  struct Case {
+    double low, high;
+  };
+  for (const Case& c :
+       {Case{0, 0}, {0.5, 0.5}, {4, 4}, {11.3, 11.3}, {64, 64}, {-5, 5}, {63, 64}}) {
+    const PairStatistics pairs(c.low, c.high, 7, 16);
+    const WienerSolver solver(pairs);
+    for (double samples : {1.0, 1024.0, 65536.0, 1e6}) {
+      const std::vector<double> filter = solver.weights(samples);
+      double sum = 0.0, largest = 0.0;
+      for (size_t i = 0; i < filter.size(); ++i) {
+        if (i < 33) sum += filter[i];
+        largest = std::max(largest, std::abs(filter[i]));
+      }
+      INFO(c.low << " " << c.high << " " << samples);
+      CHECK(sum == Approx(1.0));
+      CHECK((largest > 0.02 && largest < 2.0));
+      CHECK(solver.equivalent_pixels(filter) > 0.9);
+    }
+  }
+}
+
 TEST_CASE("many samples leave the pixel alone where the shift is small", "[wiener]") {
   const PairStatistics pairs(0.1, 0.3, 3, 16);
   const WienerSolver solver(pairs);
