@@ -13,7 +13,7 @@ namespace tessera {
 namespace {
 
 /// Weights that sum to less than this share of what they should make no average.
-constexpr float least_normaliser = 0.05f;
+constexpr float least_normaliser = 0.02f;
 
 class EffectFilter {
  public:
@@ -110,9 +110,8 @@ void EffectFilter::filter_surfaces() {
 void EffectFilter::describe_plain(size_t value, Component& component) const {
   for_pixels([&](size_t p) {
     for (size_t c = 0; c < 3; ++c) {
-      const Quotient q =
-          halves_quotient(mean(value + c)[p], even(value + c)[p], mean(MomentLayout::one)[p],
-                          even(MomentLayout::one)[p]);
+      const Quotient q = halves_quotient(mean(value + c)[p], even(value + c)[p],
+                                         mean(MomentLayout::one)[p], even(MomentLayout::one)[p]);
       component.plain[c][p] = mean(value + c)[p];
       component.variance[c][p] = q.variance;
     }
@@ -134,17 +133,15 @@ Planes EffectFilter::through_lens(size_t value) const {
       const float plain = component.plain[c][p], filtered = from.values[value + c][p] / normaliser;
       const bool good = usable && std::isfinite(filtered);
       // Weights below 0 may overshoot an edge; light does not fall below 0.
-      component.filtered[c][p] =
-          !good ? plain : (plain >= 0 ? std::max(filtered, 0.0f) : filtered);
+      component.filtered[c][p] = !good ? plain : (plain >= 0 ? std::max(filtered, 0.0f) : filtered);
     }
   });
   return blend(component, &shared_);
 }
 
-Planes EffectFilter::blend(const Component& component,
-                           const std::vector<float>* shared) const {
+Planes EffectFilter::blend(const Component& component, const std::vector<float>* shared) const {
   std::vector<float> shares;
-  if (in_.method->guarded()) shares = filtered_shares(component, shared);
+  if (in_.method->guarded()) shares = filtered_shares(component, in_.correlation, shared);
   Planes out = component.plain;
   for_pixels([&](size_t p) {
     const float unguarded = !shared || (*shared)[p] != 0.0f ? 1.0f : 0.0f;
@@ -178,7 +175,8 @@ std::vector<float> EffectFilter::shared_ratios(RayEffect effect, const Component
 void EffectFilter::describe_ratio(RayEffect effect, const StackFilterOutput& filtered,
                                   Component& out) const {
   const size_t received = layout_.received(effect), unblocked = layout_.unblocked(effect);
-  // No light is brighter than without what is in its way; what bounces may be as bright as it likes.
+  // No light is brighter than without what is in its way; what bounces may be as bright as it
+  // likes.
   const float most = effect == RayEffect::shadow ? 1.0f : std::numeric_limits<float>::max();
   for_pixels([&](size_t p) {
     float own = 0;
@@ -192,8 +190,8 @@ void EffectFilter::describe_ratio(RayEffect effect, const StackFilterOutput& fil
       const float normaliser = filtered.values[3 + c][p];
       const float ratio = filtered.values[c][p] / normaliser;
       if (!std::isfinite(ratio) || !(normaliser / divisor > least_normaliser)) continue;
-      out.filtered[c][p] = plain.value >= 0 ? std::clamp(ratio, 0.0f, std::max(most, plain.value))
-                                            : ratio;
+      out.filtered[c][p] =
+          plain.value >= 0 ? std::clamp(ratio, 0.0f, std::max(most, plain.value)) : ratio;
       own = std::max(own, filtered.own_weight[p] * (divisor / normaliser));
     }
     out.own_weight[p] = own;
@@ -234,8 +232,6 @@ Planes EffectFilter::filter_received(RayEffect effect) const {
 
 FilteredColors filter_effects(const EffectFilterInput& input) { return EffectFilter(input).run(); }
 
-int effect_filter_margin() {
-  return guard_reach + std::max(outlier_reach, facts_smoothing_reach);
-}
+int effect_filter_margin() { return guard_reach + std::max(outlier_reach, facts_smoothing_reach); }
 
 }  // namespace tessera

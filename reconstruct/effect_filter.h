@@ -21,13 +21,13 @@ struct EffectFilterInput {
 
 /// Planes [channel][pixel], over the rectangle of the facts.
 struct FilteredColors {
-  Planes base;                                       ///< without ray effects
-  std::array<Planes, ray_effect_count> received{};   ///< empty where the frame has no such effect
+  Planes base;                                      ///< without ray effects
+  std::array<Planes, ray_effect_count> received{};  ///< empty where the frame has no such effect
 };
 
-/// Filters each part of the colour along the coordinate that blurs it most for sure. What lights and
-/// bounces bring is divided by what would arrive unblocked, filtered, and multiplied again, so that
-/// textures and edges stay sharp.
+/// Filters each part of the colour along the coordinate that blurs it most for sure. What lights
+/// and bounces bring is divided by what would arrive unblocked, filtered, and multiplied again, so
+/// that textures and edges stay sharp.
 FilteredColors filter_effects(const EffectFilterInput& input);
 
 /// Pixels to either side that filter_effects reads for one pixel, on top of the method's own.

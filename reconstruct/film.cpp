@@ -95,7 +95,7 @@ class Film::Blocks {
   Image image_;
   std::vector<Filtered> filtered_;
   std::vector<std::vector<float>> products_;  ///< [product][pixel] of image_
-  std::vector<std::vector<float*>> planes_;  ///< [group][channel] of image_
+  std::vector<std::vector<float*>> planes_;   ///< [group][channel] of image_
   std::vector<Slot> slots_;
   mutable std::mutex mutex_;  ///< guards slots_ and what follows
   FilmCounters counters_;
@@ -238,7 +238,7 @@ void Film::Blocks::sum_pixel(int x, int y, const View& view, std::vector<PixelSa
     for (size_t k = first; k < std::min(first + sum_channels, filtered_.size()); ++k) {
       const float value = float(sums[1 + k - first] / sums[0]);
       const Filtered& f = filtered_[k];
-      planes_[f.group][f.channel][at] = 
+      planes_[f.group][f.channel][at] =
           int(f.group) == color_group_
               ? exposed(value, settings_.exposure_gain, settings_.exposure_gamma)
               : value;

@@ -7,39 +7,78 @@
 namespace tessera {
 namespace {
 
+constexpr int window_reach = 4;
+static_assert(guard_reach == window_reach + 1);  // and the steps to neighbours
+
 /// Pixels whose squares would come near the end of floats say nothing.
 constexpr float largest_sum = 1e30f;
 
 /// How far the sum of squared differences may exceed what noise explains before it counts as bias:
 /// more than one and a half of its standard deviations over 81 pixels.
 constexpr float chance = 1.4f;
+/// The lesser of two noisy estimates is too low on average; this makes up for about half of that.
+constexpr float rough_chance = 1.1f;
 
+/// What one pixel adds to the sums over a window.
 struct Sums {
-  std::vector<float> gain;        ///< (1 - w) s2
+  explicit Sums(size_t pixels) : gain(pixels), rough_gain(pixels), difference(pixels) {}
+  std::vector<float> gain;        ///< (1 - w) s2, s2 from halves of the samples
+  std::vector<float> rough_gain;  ///< the same, s2 from how rough F - y is
   std::vector<float> difference;  ///< (F - y)^2
 };
 
-void sum_pixel(const Component& c, size_t p, Sums& out) {
-  float gain = 0, difference = 0;
-  for (size_t channel = 0; channel < 3; ++channel) {
-    const float d = c.filtered[channel][p] - c.plain[channel][p];
-    const float variance = c.variance[channel][p];
-    difference += d * d;
-    gain += variance < 0 ? d * d : std::max(0.0f, 1 - c.own_weight[p]) * variance;
-  }
-  const bool sane = difference < largest_sum && gain < largest_sum;
-  out.gain[p] = sane ? gain : 0.0f;
-  out.difference[p] = sane ? difference : 0.0f;
-}
+class PixelSums {
+ public:
+  PixelSums(const Component& component, const NoiseCorrelation& correlation)
+      : c_(component),
+        width_(size_t(component.width)),
+        x_scale_(0.5f / std::max(0.1f, 1 - correlation.x[1])),
+        y_scale_(0.5f / std::max(0.1f, 1 - correlation.y[1])) {}
 
-/// Sums over 2 guard_reach + 1 pixels along one axis, each afresh, so that a crop has the sums of
+  void store(size_t p, Sums& out) const {
+    float gain = 0, rough = 0, difference = 0;
+    for (size_t channel = 0; channel < 3; ++channel) {
+      const float d = error(channel, p), variance = c_.variance[channel][p];
+      difference += d * d;
+      gain += variance < 0 ? d * d : others_share(p) * variance;
+      rough += variance < 0 ? d * d : others_share(p) * roughness(channel, p);
+    }
+    const bool sane = difference < largest_sum && gain < largest_sum;
+    out.gain[p] = sane ? gain : 0.0f;
+    out.difference[p] = sane ? difference : 0.0f;
+    out.rough_gain[p] = rough < largest_sum ? rough : largest_sum;
+  }
+
+ private:
+  float error(size_t channel, size_t p) const {
+    return c_.filtered[channel][p] - c_.plain[channel][p];
+  }
+  float others_share(size_t p) const { return std::max(0.0f, 1 - c_.own_weight[p]); }
+
+  /// The variance of noise from the steps to the next pixels (at the end of a row, the last): those
+  /// of noise correlated by r have a mean square of 2 (1 - r) s2.
+  float roughness(size_t channel, size_t p) const {
+    const float here = error(channel, p);
+    const size_t right = (p + 1) % width_ != 0 ? p + 1 : p - (width_ > 1);
+    const size_t below = p + width_ < c_.pixels() ? p + width_ : p - (p >= width_ ? width_ : 0);
+    const float x_step = here - error(channel, right), y_step = here - error(channel, below);
+    return 0.5f * (x_scale_ * x_step * x_step + y_scale_ * y_step * y_step);
+  }
+
+  const Component& c_;
+  size_t width_;
+  float x_scale_, y_scale_;
+};
+
+/// Sums over 2 window_reach + 1 pixels along one axis, each afresh, so that a crop has the sums of
 /// the whole frame.
 std::vector<float> box_sums(const std::vector<float>& in, int width, int height, bool rows) {
   std::vector<float> out(in.size());
   tbb::parallel_for(0, height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const int at = rows ? x : y, size = rows ? width : height;
-      const int first = std::max(0, at - guard_reach), last = std::min(size - 1, at + guard_reach);
+      const int first = std::max(0, at - window_reach),
+                last = std::min(size - 1, at + window_reach);
       float sum = 0;
       for (int k = first; k <= last; ++k)
         sum += in[size_t(rows ? y : k) * size_t(width) + size_t(rows ? k : x)];
@@ -55,23 +94,27 @@ std::vector<float> window_sums(const std::vector<float>& in, int width, int heig
 
 }  // namespace
 
-std::vector<float> filtered_shares(const Component& component,
+std::vector<float> filtered_shares(const Component& component, const NoiseCorrelation& correlation,
                                    const std::vector<float>* shared) {
   const size_t pixels = component.pixels();
-  Sums sums{std::vector<float>(pixels), std::vector<float>(pixels)};
+  Sums sums(pixels);
+  const PixelSums pixel_sums(component, correlation);
   tbb::parallel_for(0, component.height, [&](int y) {
     const size_t first = size_t(y) * size_t(component.width);
     for (size_t p = first; p < first + size_t(component.width); ++p)
-      if (!shared || (*shared)[p] != 0.0f) sum_pixel(component, p, sums);
+      if (!shared || (*shared)[p] != 0.0f) pixel_sums.store(p, sums);
   });
-  const std::vector<float> gain = window_sums(sums.gain, component.width, component.height);
-  const std::vector<float> difference =
-      window_sums(sums.difference, component.width, component.height);
+  const auto window = [&](const std::vector<float>& in) {
+    return window_sums(in, component.width, component.height);
+  };
+  const std::vector<float> halves = window(sums.gain), rough = window(sums.rough_gain);
+  const std::vector<float> difference = window(sums.difference);
   std::vector<float> shares(pixels);
   for (size_t p = 0; p < pixels; ++p) {
     const bool outlier = shared && (*shared)[p] == 0.0f;
-    if (!outlier && gain[p] > 0)
-      shares[p] = gain[p] / (gain[p] + std::max(0.0f, difference[p] - chance * gain[p]));
+    const float gain = std::min(halves[p], rough_chance * rough[p]);
+    if (!outlier && gain > 0)
+      shares[p] = gain / (gain + std::max(0.0f, difference[p] - chance * gain));
   }
   return shares;
 }

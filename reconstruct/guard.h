@@ -7,21 +7,28 @@
 
 namespace tessera {
 
-/// For every pixel the share a in [0, 1] of the filtered value F for which y + a (F - y) is expected
-/// to lie nearest to the truth, y being the unfiltered value. With y = truth + noise of variance s2
-/// and a share w of that noise in F, the expected squared error is
+/// For every pixel the share a in [0, 1] of the filtered value F for which y + a (F - y) is
+/// expected to lie nearest to the truth, y being the unfiltered value. With y = truth + noise of
+/// variance s2 and a share w of that noise in F, the expected squared error is
 ///
 ///   s2 + 2 a (w - 1) s2 + a^2 (F - y)^2,  least for  a = (1 - w) s2 / (F - y)^2
 ///
-/// (Stein's unbiased estimate for a linear filter), both summed over the 9 x 9 pixels around and the
-/// three channels. As samples grow, s2 falls to 0 and with it the share of a filter that blurs too
-/// much. Both sums are noisy themselves, by a quarter of their size, and what the lower one lacks
-/// by chance would let noise through: (F - y)^2 counts only as far as it exceeds (1 - w) s2 by more.
-/// Where no variance is known the filtered value is trusted.
+/// (Stein's unbiased estimate for a linear filter), both summed over the 9 x 9 pixels around and
+/// the three channels. As samples grow, s2 falls to 0 and with it the share of a filter that blurs
+/// too much. Both sums are noisy themselves, by a quarter of their size, and what the lower one
+/// lacks by chance would let noise through: (F - y)^2 counts only as far as it exceeds (1 - w) s2
+/// by more.
+///
+/// s2 is the lesser of two estimates, neither of which is too low on average: from two halves of
+/// each pixel's samples, too high where samples are stratified, and from how much F - y differs
+/// between neighbours, too high where F blurs details. Where the first is not known the filter is
+/// trusted.
 ///
 /// Pixels that are 0 in `shared` (or null) say nothing and get 0.
-std::vector<float> filtered_shares(const Component& component, const std::vector<float>* shared);
+std::vector<float> filtered_shares(const Component& component, const NoiseCorrelation& correlation,
+                                   const std::vector<float>* shared);
 
-inline constexpr int guard_reach = 4;
+/// Pixels to either side whose values count.
+inline constexpr int guard_reach = 5;
 
 }  // namespace tessera

@@ -36,8 +36,8 @@ struct MomentStack {
 /// received (3 channels) and what would be without anything in the way (3 channels). Factors follow
 /// them: 1, whether the sample's index is even, and the pairs of every coordinate.
 ///
-/// Ray effects' own coordinates are summed for the values of the effect alone; lens and time for all
-/// values, as they blur everything.
+/// Ray effects' own coordinates are summed for the values of the effect alone; lens and time for
+/// all values, as they blur everything.
 class MomentLayout {
  public:
   MomentLayout(const DistributionFeatures& features, const ReconstructionMethod& method);

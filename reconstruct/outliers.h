@@ -5,11 +5,11 @@
 
 namespace tessera {
 
-/// Finds pixels whose value is over a thousand times the mean around them (the 11 x 11 pixels around
-/// without those that may hold the same samples: `spread` pixels to either side), and nearly all of
-/// it from one half of their samples. Filters do not share such pixels: their light would light up
-/// everything in reach, and stays where it is instead. Returns 1 for pixels to share, 0 for
-/// outliers. `value` and `even_part` (the part that even samples have) are planes of `width` by
+/// Finds pixels whose value is over a thousand times the mean around them (the 11 x 11 pixels
+/// around without those that may hold the same samples: `spread` pixels to either side), and nearly
+/// all of it from one half of their samples. Filters do not share such pixels: their light would
+/// light up everything in reach, and stays where it is instead. Returns 1 for pixels to share, 0
+/// for outliers. `value` and `even_part` (the part that even samples have) are planes of `width` by
 /// `height` pixels.
 std::vector<float> shared_pixels(const std::vector<float>& value,
                                  const std::vector<float>& even_part, int width, int height,

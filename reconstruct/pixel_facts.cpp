@@ -28,8 +28,7 @@ struct WedgeRange {
   }
   void store(WedgePlanes& planes, size_t pixel) const {
     if (!any) return;
-    for (size_t a = 0; a < 2; ++a)
-      planes.low[a][pixel] = low[a], planes.high[a][pixel] = high[a];
+    for (size_t a = 0; a < 2; ++a) planes.low[a][pixel] = low[a], planes.high[a][pixel] = high[a];
   }
 };
 
@@ -155,9 +154,8 @@ namespace {
 void smooth_wedge(const PixelFacts& facts, Blur blur, int x, int y, WedgePlanes& out, size_t at) {
   const WedgePlanes& in = facts.wedges[size_t(blur)];
   const uint32_t own = facts.surface[facts.index(x, y)];
-  const PixelRect near = PixelRect{x, y, x + 1, y + 1}
-                             .grown(facts_smoothing_reach)
-                             .intersect(facts.rect());
+  const PixelRect near =
+      PixelRect{x, y, x + 1, y + 1}.grown(facts_smoothing_reach).intersect(facts.rect());
   std::array<float, 2> low{}, high{};
   int count = 0;
   for (int qy = near.y0; qy < near.y1; ++qy) {

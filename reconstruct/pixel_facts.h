@@ -63,9 +63,9 @@ class PixelFacts {
 /// counts.
 double mean_bound_samples(const PixelFacts& facts, const PixelRect& crop);
 
-/// The facts of `rect` with wedges averaged over the 5 x 5 pixels around (L. Wu et al. 2017, section
-/// 6.2): lows and highs apart, over the pixels that have them; those of ray effects over pixels that
-/// show the same surface.
+/// The facts of `rect` with wedges averaged over the 5 x 5 pixels around (L. Wu et al. 2017,
+/// section 6.2): lows and highs apart, over the pixels that have them; those of ray effects over
+/// pixels that show the same surface.
 PixelFacts smoothed(const PixelFacts& facts, const PixelRect& rect);
 inline constexpr int facts_smoothing_reach = 2;
 

@@ -16,7 +16,8 @@ constexpr size_t lanes = 8;
 ProductSums::ProductSums(const std::vector<SampleProducts>& products) : products_(products) {
   size_t count = 0;
   for (const SampleProducts& p : products) {
-    channels_ = std::max({channels_, p.first_factor + p.factor_count, p.first_value + p.value_count});
+    channels_ =
+        std::max({channels_, p.first_factor + p.factor_count, p.first_value + p.value_count});
     max_factors_ = std::max(max_factors_, p.factor_count);
     count += p.factor_count * p.value_count;
   }

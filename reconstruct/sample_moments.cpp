@@ -44,8 +44,10 @@ const float* data_or_null(const std::vector<float>& values) {
 
 Coordinates coordinates_of(Blur blur, const DistributionSamples& d, float lens_extent) {
   switch (blur) {
-    case Blur::lens: return {{data_or_null(d.u), data_or_null(d.v)}, 1.0f / lens_extent, 0.0f};
-    case Blur::motion: return {{data_or_null(d.t), nullptr}, 2.0f, -1.0f};
+    case Blur::lens:
+      return {{data_or_null(d.u), data_or_null(d.v)}, 1.0f / lens_extent, 0.0f};
+    case Blur::motion:
+      return {{data_or_null(d.t), nullptr}, 2.0f, -1.0f};
     default: {
       const EffectValues& effect = d.effects[size_t(blur)];
       return {{data_or_null(effect.y[0]), data_or_null(effect.y[1])}};

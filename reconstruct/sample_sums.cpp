@@ -92,8 +92,7 @@ void sum_products_simd(const float* factors, size_t factor_count, const float* v
     const float* const rows[2] = {factors + f * stride, factors + f1 * stride};
     for (size_t v = 0; v < value_count; v += 4) {
       const float* columns[4];
-      for (size_t c = 0; c < 4; ++c)
-        columns[c] = values + HWY_MIN(v + c, value_count - 1) * stride;
+      for (size_t c = 0; c < 4; ++c) columns[c] = values + HWY_MIN(v + c, value_count - 1) * stride;
       double block[2][4];
       sum_block(rows, {columns[0], columns[1], columns[2], columns[3]}, count, block);
       for (size_t c = 0; c < 4 && v + c < value_count; ++c) {

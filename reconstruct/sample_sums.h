@@ -17,12 +17,13 @@ struct PixelSamples {
 };
 
 /// sums[0] = sum of wx[k] * wy[k], sums[1 + c] = sum of (wx[k] * wy[k]) * channels[c][k], over
-/// the samples k of each of the `pixel_count` pixels. Sample k of every pixel adds to partial sum k mod
-/// 8, pixels in the order given; a fixed tree adds up the eight, whatever the vector width. So
+/// the samples k of each of the `pixel_count` pixels. Sample k of every pixel adds to partial sum k
+/// mod 8, pixels in the order given; a fixed tree adds up the eight, whatever the vector width. So
 /// every target and every bucket size gives the same bits.
 void sum_footprint(const PixelSamples* pixels, size_t pixel_count, double* sums);
 
-/// Sums of products of two rows of values: sums[f * value_count + v] = sum of weighted_factors[f][k]
+/// Sums of products of two rows of values: sums[f * value_count + v] = sum of
+/// weighted_factors[f][k]
 /// * values[v][k] over k < count, a multiple of 8. Row r of either starts at its pointer + r *
 /// stride. Partial sums as in sum_footprint().
 void sum_products(const float* weighted_factors, size_t factor_count, const float* values,

@@ -36,9 +36,7 @@ class RunWeights {
     for (int x = x0; x < x1; ++x) make_pixel(x, y, axis, size_t(x - x0));
   }
 
-  TapWeights view() const {
-    return {values_.data(), size_t(taps_), size_t(begin_), size_t(end_)};
-  }
+  TapWeights view() const { return {values_.data(), size_t(taps_), size_t(begin_), size_t(end_)}; }
   /// own()[pixel of the run]: the axis' factor of StackFilterOutput::own_weight.
   const std::array<float, tap_run>& own() const { return own_; }
 
@@ -66,7 +64,8 @@ class RunWeights {
       const int d = t - reach_;
       const size_t q = size_t(std::ptrdiff_t(at) + d * step);
       if (!used(at, q, axis)) continue;
-      for (size_t k = 0; k < functions_; ++k) store(k, t, column, pixel_[k * size_t(taps_) + size_t(t)]);
+      for (size_t k = 0; k < functions_; ++k)
+        store(k, t, column, pixel_[k * size_t(taps_) + size_t(t)]);
       if (std::abs(d) <= NoiseCorrelation::reach)
         own_[column] += correlation[size_t(std::abs(d))] * pixel_[size_t(t)];
     }
@@ -88,8 +87,8 @@ class RunWeights {
   std::array<float, tap_run> own_{};
 };
 
-/// The column sums of a band of rows: [row][value][x function][x], columns `reach` to the left of the
-/// rectangle first.
+/// The column sums of a band of rows: [row][value][x function][x], columns `reach` to the left of
+/// the rectangle first.
 class Band {
  public:
   Band(const StackFilterInput& input, int y0, int y1)
@@ -134,8 +133,8 @@ class Band {
         terms.clear();
         for (size_t p = 0; p < stack.pairs.size(); ++p)
           if (size_t(stack.pairs[p].j) == j)
-            terms.push_back({(*input_.planes)[stack.plane(p, v)].data() + first,
-                             size_t(stack.pairs[p].k)});
+            terms.push_back(
+                {(*input_.planes)[stack.plane(p, v)].data() + first, size_t(stack.pairs[p].k)});
         sum_taps(terms.data(), terms.size(), weights_.view(), width_, result);
         std::copy_n(result, run, sums(y, v, j) + reach_ + size_t(x - facts.rect().x0));
       }

@@ -23,9 +23,9 @@ struct NoiseCorrelation {
 struct StackFilterInput {
   const MomentStack* stack = nullptr;
   const ReconstructionMethod* method = nullptr;
-  const Planes* planes = nullptr;  ///< as Film::take_products(), over the rectangle of `facts`, with
-                                   ///< tap_run values of room at the end
-  const PixelFacts* facts = nullptr;  ///< smoothed
+  const Planes* planes = nullptr;  ///< as Film::take_products(), over the rectangle of `facts`,
+                                   ///< with tap_run values of room at the end
+  const PixelFacts* facts = nullptr;           ///< smoothed
   const std::vector<float>* shared = nullptr;  ///< 1: others may use the pixel; 0: an outlier
   NoiseCorrelation correlation;
   float samples_scale = 1;  ///< of the number of samples that the method is told
@@ -38,8 +38,8 @@ struct StackFilterOutput {
 };
 
 /// Steps along columns, then rows; for motion along the line of motion. Taps do not reach pixels of
-/// another surface or whose normals differ by more than 20 degrees where the coordinate is that of a
-/// ray effect.
+/// another surface or whose normals differ by more than 20 degrees where the coordinate is that of
+/// a ray effect.
 StackFilterOutput filter_stack(const StackFilterInput& input);
 
 /// The same along each pixel's own line (Blur::motion), at rounded places, for the pixels where
@@ -50,8 +50,8 @@ StackFilterOutput filter_lines(const StackFilterInput& input, const std::vector<
 /// degrees (L. Wu et al. 2017, section 6.2).
 inline bool alike(const PixelFacts& facts, size_t p, size_t q) {
   constexpr float cos_20_degrees = 0.9396926f;
-  const float dot = facts.N[0][p] * facts.N[0][q] + facts.N[1][p] * facts.N[1][q] +
-                    facts.N[2][p] * facts.N[2][q];
+  const float dot =
+      facts.N[0][p] * facts.N[0][q] + facts.N[1][p] * facts.N[1][q] + facts.N[2][p] * facts.N[2][q];
   return facts.surface[p] == facts.surface[q] && dot >= cos_20_degrees;
 }
 

@@ -10,7 +10,8 @@ inline constexpr size_t tap_run = 64;
 
 /// Moments to step along, and which function's weights they take.
 struct TapTerm {
-  const float* first;  ///< the value for tap 0 of the run's first pixel; pixels lie next to each other
+  const float*
+      first;  ///< the value for tap 0 of the run's first pixel; pixels lie next to each other
   size_t function;
 };
 
@@ -20,8 +21,8 @@ struct TapWeights {
   size_t taps, tap_begin, tap_end;
 };
 
-/// out[x] = sum over terms i and taps t of weights[function_i][t][x] * first_i[t * tap_stride + x], in
-/// that order for each pixel whatever the vector width. Reads tap_run pixels of each tap.
+/// out[x] = sum over terms i and taps t of weights[function_i][t][x] * first_i[t * tap_stride + x],
+/// in that order for each pixel whatever the vector width. Reads tap_run pixels of each tap.
 void sum_taps(const TapTerm* terms, size_t term_count, const TapWeights& weights, size_t tap_stride,
               float* out);
 

@@ -156,10 +156,8 @@ void apply_distributed(const TermTarget& to, const BoundLight& light, const Term
   const size_t number = sum.lights++;
   if (look_ups.at.empty()) return;
   const SamplePlaces places(*to.input.samples, light.definition->effect, number);
-  const LightServices services{.camera = &to.bindings.camera(),
-                               .rays = to.bindings.rays(),
-                               .bounce = to.bindings.bounce(),
-                               .counters = &to.counters};
+  LightServices services = to.bindings.light_services();
+  services.counters = &to.counters;
   ShareSamples shares;
   std::vector<glm::vec2> xi;
   const auto look_up = [&](std::span<const uint32_t> fragments) {

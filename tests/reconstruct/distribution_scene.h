@@ -19,10 +19,13 @@ namespace tessera::test {
 inline const AovDefinition rgb_group{"rgb", "", {"R", "G", "B"}, ChannelFilter::filtered, 0.0f};
 inline const AovDefinition alpha_group{"a", "", {"A"}, ChannelFilter::filtered, 0.0f};
 inline const AovDefinition depth_group{"z", "", {"Z"}, ChannelFilter::closest, 1e30f};
-inline const AovDefinition direct_group{"direct", "", {"dR", "dG", "dB"}, ChannelFilter::filtered, 0.0f};
-inline const AovDefinition indirect_group{"indirect", "", {"iR", "iG", "iB"}, ChannelFilter::filtered, 0.0f};
+inline const AovDefinition direct_group{
+    "direct", "", {"dR", "dG", "dB"}, ChannelFilter::filtered, 0.0f};
+inline const AovDefinition indirect_group{
+    "indirect", "", {"iR", "iG", "iB"}, ChannelFilter::filtered, 0.0f};
 
-/// One sample as a scene makes it. Random numbers in [-1, 1] come in `y` of each effect, `u` and `t`.
+/// One sample as a scene makes it. Random numbers in [-1, 1] come in `y` of each effect, `u` and
+/// `t`.
 struct SceneSample {
   float x = 0, y = 0;  ///< raster
   struct Ray {
@@ -65,6 +68,7 @@ struct DistributionFrame {
   ReconstructionSettings settings;
   int samples_per_pixel = 4;
   uint32_t seed = 1;
+  bool stratified = false;  ///< first coordinates of a pixel's samples lie in strata of their own
   std::function<void(SceneSample&)> shade;  ///< fills the rest of a sample
   /// Samples of a pixel, where they differ from the others'.
   std::function<int(int x, int y)> sample_count;
@@ -90,8 +94,17 @@ struct DistributionFrame {
       s.u[a] = 2 * random(x, y, k, 7 + a) - 1;
     }
     s.t = random(x, y, k, 9);
+    if (stratified) stratify(s, x, y, k);
     shade(s);
     return s;
+  }
+
+  void stratify(SceneSample& s, int x, int y, int k) const {
+    const int n = samples_per_pixel, first = int(float(n) * random(x, y, 0, 20));
+    const float stratum = float((k + first) % n) / float(n);
+    for (auto& ray : s.rays) ray.y[0] = 2 * (stratum + 0.5f * (ray.y[0] + 1) / float(n)) - 1;
+    s.u[0] = 2 * (stratum + 0.5f * (s.u[0] + 1) / float(n)) - 1;
+    s.t = stratum + s.t / float(n);
   }
 
   SampleValues bucket(const PixelRect& rect) const;
@@ -182,8 +195,8 @@ inline Image DistributionFrame::render(std::unique_ptr<ReconstructionMethod> met
 }
 
 /// Mean of clamp(position / half_width, -1, 1) / 2 + 1/2 over positions within half a pixel of
-/// `centre`: what is lit of a pixel in the penumbra of a straight edge, or covered by an edge out of
-/// focus. From the second integral of the step.
+/// `centre`: what is lit of a pixel in the penumbra of a straight edge, or covered by an edge out
+/// of focus. From the second integral of the step.
 inline double mean_ramp(double centre, double half_width) {
   const auto integral = [&](double p) {
     if (p <= -half_width) return 0.0;

@@ -34,7 +34,8 @@ struct CarryFrame {
   SampleValues bucket(const PixelRect& rect) const {
     SampleValues values = frame.bucket(rect);
     for (size_t c = 0; c < carried; ++c)
-      for_samples(rect, [&](int x, int y, int k) { values.carried.push_back(channel(x, y, k, c)); });
+      for_samples(rect,
+                  [&](int x, int y, int k) { values.carried.push_back(channel(x, y, k, c)); });
     return values;
   }
   void fill(Film& film) const {
@@ -42,10 +43,12 @@ struct CarryFrame {
     const int size = frame.settings.film.bucket_size;
     for (int j = 0; j * size < all.height(); ++j)
       for (int i = 0; i * size < all.width(); ++i)
-        film.add_bucket(i, j, bucket(PixelRect{i * size, j * size, i * size + size, j * size + size}
-                                         .intersect(all)));
+        film.add_bucket(
+            i, j,
+            bucket(PixelRect{i * size, j * size, i * size + size, j * size + size}.intersect(all)));
   }
-  /// The weighted mean of `value` at a pixel by the definition: each pixel's samples share a weight.
+  /// The weighted mean of `value` at a pixel by the definition: each pixel's samples share a
+  /// weight.
   template <class Value>
   double mean(int x, int y, Value value) const {
     long double sum = 0, weights = 0;

@@ -25,6 +25,11 @@ Component noisy(float deviation, float bias, uint32_t seed = 3) {
   return component;
 }
 
+std::vector<float> shares_of(const Component& component,
+                             const std::vector<float>* shared = nullptr) {
+  return filtered_shares(component, {}, shared);
+}
+
 double mean_of(const std::vector<float>& values) {
   double sum = 0;
   for (const float value : values) sum += value;
@@ -33,7 +38,7 @@ double mean_of(const std::vector<float>& values) {
 
 /// Mean squared error of the blend; the truth is 0.
 double blend_error(const Component& component) {
-  const std::vector<float> shares = filtered_shares(component, nullptr);
+  const std::vector<float> shares = shares_of(component);
   double sum = 0;
   for (size_t p = 0; p < shares.size(); ++p)
     for (size_t c = 0; c < 3; ++c) {
@@ -46,7 +51,7 @@ double blend_error(const Component& component) {
 }  // namespace
 
 TEST_CASE("The guard takes a filter without bias nearly whole", "[guard]") {
-  CHECK(mean_of(filtered_shares(noisy(0.5f, 0), nullptr)) > 0.97);
+  CHECK(mean_of(shares_of(noisy(0.5f, 0))) > 0.97);
 }
 
 TEST_CASE("A blend is never much worse than the better of its two", "[guard]") {
@@ -58,37 +63,49 @@ TEST_CASE("A blend is never much worse than the better of its two", "[guard]") {
 }
 
 TEST_CASE("As noise falls, the share of a biased filter falls with its square", "[guard]") {
-  const double at_1 = mean_of(filtered_shares(noisy(0.1f, 1), nullptr));
-  const double at_2 = mean_of(filtered_shares(noisy(0.05f, 1), nullptr));
+  const double at_1 = mean_of(shares_of(noisy(0.1f, 1)));
+  const double at_2 = mean_of(shares_of(noisy(0.05f, 1)));
   CHECK(at_1 == Approx(0.01).epsilon(0.3));
   CHECK(at_2 == Approx(at_1 / 4).epsilon(0.1));
-  CHECK(mean_of(filtered_shares(noisy(0, 1), nullptr)) == 0);
+  CHECK(mean_of(shares_of(noisy(0, 1))) == 0);
 }
 
 TEST_CASE("A filter that keeps a pixel's own noise is no gain", "[guard]") {
   Component component = noisy(0.5f, 2);
-  const double before = mean_of(filtered_shares(component, nullptr));
+  const double before = mean_of(shares_of(component));
   std::fill(component.own_weight.begin(), component.own_weight.end(), 0.75f);
-  CHECK(mean_of(filtered_shares(component, nullptr)) == Approx(before / 4).epsilon(0.1));
+  CHECK(mean_of(shares_of(component)) == Approx(before / 4).epsilon(0.1));
   std::fill(component.own_weight.begin(), component.own_weight.end(), 1.0f);
-  CHECK(mean_of(filtered_shares(component, nullptr)) == 0);
+  CHECK(mean_of(shares_of(component)) == 0);
 }
 
-TEST_CASE("Where no variance is known, filters are trusted", "[guard]") {
+TEST_CASE("Where halves tell nothing, filters are trusted", "[guard]") {
   Component component = noisy(0.5f, 2);
   for (auto& plane : component.variance) std::fill(plane.begin(), plane.end(), -1.0f);
-  CHECK(mean_of(filtered_shares(component, nullptr)) == 1);
+  CHECK(mean_of(shares_of(component)) == 1);
+}
+
+TEST_CASE("Halves of stratified samples that differ too much are not believed", "[guard]") {
+  Component component = noisy(0.5f, 2);
+  const double share = mean_of(shares_of(component));
+  for (auto& plane : component.variance)
+    for (float& variance : plane) variance *= 10;
+  CHECK(mean_of(shares_of(component)) == Approx(share).epsilon(0.2));
+  // Noise that neighbours share by a half is twice what steps show.
+  NoiseCorrelation half;
+  half.x[1] = half.y[1] = 0.5f;
+  CHECK(mean_of(filtered_shares(component, half, nullptr)) == Approx(2 * share).epsilon(0.3));
 }
 
 TEST_CASE("Outliers and overflowing pixels say nothing to their neighbours", "[guard]") {
   const Component calm = noisy(0.5f, 0.2f);
-  const std::vector<float> expected = filtered_shares(calm, nullptr);
+  const std::vector<float> expected = shares_of(calm);
   Component wild = calm;
   const size_t at = 15 * 40 + 20;
   std::vector<float> shared(calm.pixels(), 1.0f);
   SECTION("outlier") { wild.plain[1][at] = 1e6f, shared[at] = 0; }
   SECTION("overflow") { wild.plain[1][at] = 1e30f; }
-  const std::vector<float> shares = filtered_shares(wild, &shared);
+  const std::vector<float> shares = shares_of(wild, &shared);
   if (shared[at] == 0.0f) CHECK(shares[at] == 0);
   for (size_t p = 0; p < shares.size(); ++p)
     if (p != at) REQUIRE(shares[p] == Approx(expected[p]).margin(0.06));

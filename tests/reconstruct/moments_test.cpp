@@ -180,10 +180,10 @@ TEST_CASE("Smoothing averages lows and highs of one surface", "[moments]") {
   };
   CHECK(smooth.rect() == rect.grown(-1));
   CHECK(at(Blur::lens, 5, 4).low == Approx(5));
-  CHECK(at(Blur::lens, 5, 4).high == Approx(5 + 4));       // rows 2, 3, 5, 6
-  CHECK(at(Blur::shadow, 5, 4).low == Approx(4));          // columns 3, 4, 5
-  CHECK(at(Blur::shadow, 6, 2).low == Approx(7));          // columns 6, 7, 8
-  CHECK(at(Blur::shadow, 6, 2).high == Approx(7 + 1.5));   // rows 0, 1, 2, 3
+  CHECK(at(Blur::lens, 5, 4).high == Approx(5 + 4));      // rows 2, 3, 5, 6
+  CHECK(at(Blur::shadow, 5, 4).low == Approx(4));         // columns 3, 4, 5
+  CHECK(at(Blur::shadow, 6, 2).low == Approx(7));         // columns 6, 7, 8
+  CHECK(at(Blur::shadow, 6, 2).high == Approx(7 + 1.5));  // rows 0, 1, 2, 3
   CHECK(smooth.wedges[size_t(Blur::lens)].sure_shift(smooth.index(5, 3)) ==
         Approx(std::hypot(5.0, 1.0)));
 }

@@ -125,8 +125,8 @@ TEST_CASE("Without effects or a method the film stands alone", "[reconstruction]
 }
 
 TEST_CASE("Penumbrae: error falls with samples, textures stay", "[reconstruction]") {
-  check_error_falls(penumbra_frame(), [](int x, int y) { return penumbra_truth(x, y, 48, 12); },
-                    3.0);
+  check_error_falls(
+      penumbra_frame(), [](int x, int y) { return penumbra_truth(x, y, 48, 12); }, 3.0);
 }
 
 TEST_CASE("Defocus: error falls with samples", "[reconstruction]") {
@@ -146,17 +146,17 @@ TEST_CASE("Bounces: error falls with samples", "[reconstruction]") {
   frame.shade = [](SceneSample& s) {
     SceneSample::Ray& ray = s.rays[1];
     set(ray.unblocked, checks(s.x, s.y));
-    set(ray.received,
-        checks(s.x, s.y) * (1 + std::sin(0.3f * (s.x + 15 * ray.y[0]) +
-                                         0.2f * (s.y + 15 * ray.y[1]))));
+    set(ray.received, checks(s.x, s.y) * (1 + std::sin(0.3f * (s.x + 15 * ray.y[0]) +
+                                                       0.2f * (s.y + 15 * ray.y[1]))));
     ray.slope = 1, ray.extent[0] = ray.extent[1] = 15;
   };
   const auto sinc = [](double a) { return std::sin(a) / a; };
   check_error_falls(
       frame,
       [&](int x, int y) {
-        return checks(float(x), float(y)) * (1 + std::sin(0.3 * (x + 0.5) + 0.2 * (y + 0.5)) *
-                                                     sinc(4.5) * sinc(3.0) * sinc(0.15) * sinc(0.1));
+        return checks(float(x), float(y)) *
+               (1 + std::sin(0.3 * (x + 0.5) + 0.2 * (y + 0.5)) * sinc(4.5) * sinc(3.0) *
+                        sinc(0.15) * sinc(0.1));
       },
       5.0);
 }
@@ -195,8 +195,8 @@ TEST_CASE("Crops, buckets and threads change no pixel", "[reconstruction]") {
   const PixelRect window = frame.settings.film.display_window;
   for (const PixelRect& crop : {PixelRect{37, 25, 50, 34}, PixelRect{0, 40, 30, 60}}) {
     frame.settings.film.crop = crop;
-    frame.settings.film.sampled = sampled_pixels(
-        crop.grown(reconstruction_reach(*wide())).intersect(window), window, 2, 2);
+    frame.settings.film.sampled =
+        sampled_pixels(crop.grown(reconstruction_reach(*wide())).intersect(window), window, 2, 2);
     const Image part = frame.render(wide());
     CHECK(part.data_window == crop);
     CHECK(same_pixels(part, whole));
@@ -230,7 +230,8 @@ TEST_CASE("Exposure comes after filtering; direct and indirect light stay linear
   for (size_t c = 1; c < 4; ++c) {
     for (size_t p = 0; p < linear.channels[c].values.size(); ++p) {
       const double value = linear.channels[c].values[p];
-      const double parts = double(linear.channels[c + 3].values[p]) + linear.channels[c + 6].values[p];
+      const double parts =
+          double(linear.channels[c + 3].values[p]) + linear.channels[c + 6].values[p];
       REQUIRE(parts == Approx(value).margin(1e-6));
       REQUIRE(exposed_image.channels[c].values[p] ==
               Approx(std::pow(2 * value, 1 / 2.2)).epsilon(1e-5));
@@ -397,8 +398,7 @@ TEST_CASE("Nothing changes where nothing is noisy", "[reconstruction]") {
   frame.shade = [](SceneSample& s) { shade_penumbra(s, 1000, 12); };  // all lit
   const Image plain = frame.render(nullptr), filtered = frame.render(gaussian());
   for (size_t p = 0; p < plain.channels[0].values.size(); ++p)
-    REQUIRE(filtered.channels[0].values[p] ==
-            Approx(plain.channels[0].values[p]).epsilon(1e-6));
+    REQUIRE(filtered.channels[0].values[p] == Approx(plain.channels[0].values[p]).epsilon(1e-6));
 }
 
 TEST_CASE("Too many moments for the memory are refused", "[reconstruction]") {
@@ -411,8 +411,7 @@ TEST_CASE("Too many moments for the memory are refused", "[reconstruction]") {
 TEST_CASE("Methods are found by name", "[reconstruction]") {
   const ReconstructionMethodDefinition methods[] = {
       {"narrow", "", [](std::string_view) { return gaussian(false); }},
-      {"wide", "",
-       [](std::string_view arguments) -> std::unique_ptr<ReconstructionMethod> {
+      {"wide", "", [](std::string_view arguments) -> std::unique_ptr<ReconstructionMethod> {
          if (arguments != "3") throw Error("expected 3");
          return gaussian(true);
        }}};

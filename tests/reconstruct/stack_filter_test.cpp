@@ -72,8 +72,7 @@ struct RandomStack {
     return in;
   }
   bool same_surface(size_t p, size_t q) const {
-    return facts.surface[p] == facts.surface[q] &&
-           std::abs(facts.N[0][p] - facts.N[0][q]) < 0.1f;
+    return facts.surface[p] == facts.surface[q] && std::abs(facts.N[0][p] - facts.N[0][q]) < 0.1f;
   }
   /// A_k(d) of pixel p along an axis, by the definition.
   double weight(size_t p, size_t axis, int k, int d) const {
