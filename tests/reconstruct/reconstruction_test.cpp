@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "base/error.h"
+#include "reconstruct/pixel_facts.h"
 #include "tests/reconstruct/distribution_scene.h"
 
 using namespace tessera;
@@ -87,6 +88,18 @@ std::unique_ptr<ReconstructionMethod> gaussian(bool guarded = true) {
   return std::make_unique<GaussianMethod>(guarded);
 }
 
+/// Weights below 0 to either side, as the best linear filters have them.
+class RingingMethod : public GaussianMethod {
+ public:
+  RingingMethod() : GaussianMethod(false) {}
+  void weights(const AxisWedge& wedge, float samples, float* out) const override {
+    float wide[21];
+    GaussianMethod::weights({2 * wedge.low, 2 * wedge.high}, samples, wide);
+    GaussianMethod::weights(wedge, samples, out);
+    for (int k = 0; k < 21; ++k) out[k] = 3 * out[k] - 2 * wide[k];
+  }
+};
+
 /// Errors over samples a pixel of a frame with and without the guarded filter.
 void check_error_falls(DistributionFrame frame, const std::function<double(int, int)>& truth,
                        double gain_at_4) {
@@ -138,6 +151,19 @@ TEST_CASE("Defocus: error falls with samples", "[reconstruction]") {
   };
   check_error_falls(
       frame, [](int x, int) { return 0.2 + 0.8 * mean_ramp(48 - (x + 0.5), 8); }, 3.0);
+}
+
+TEST_CASE("Shadows out of focus are filtered along the lens", "[reconstruction]") {
+  DistributionFrame frame(96, 48);
+  frame.settings.features.lens = frame.settings.features.shadow = true;
+  frame.shade = [](SceneSample& s) {
+    const bool lit = s.x - 8 * s.u[0] < 48;  // a hard shadow on a surface that the lens blurs
+    set(s.rays[0].unblocked, 1), set(s.rays[0].received, lit ? 1.0f : 0.0f);
+    if (!lit) s.rays[0].slope = 0.01f;
+    s.coc[0] = s.coc[1] = 8;
+  };
+  check_error_falls(
+      frame, [](int x, int) { return mean_ramp(48 - (x + 0.5), 8); }, 3.0);
 }
 
 TEST_CASE("Bounces: error falls with samples", "[reconstruction]") {
@@ -265,6 +291,26 @@ TEST_CASE("Fireflies stay where they are", "[reconstruction]") {
     }
 }
 
+TEST_CASE("Filtered light is neither below 0 nor above what nothing blocks", "[reconstruction]") {
+  DistributionFrame frame(96, 40);
+  frame.settings.features.lens = frame.settings.features.shadow = true;
+  const bool by_lens = GENERATE(false, true);
+  frame.shade = [=](SceneSample& s) {
+    const bool lit = s.x < 48 && !by_lens, near_edge = by_lens && s.x < 48;
+    set(s.base, near_edge ? 1.0f : 0.0f);
+    set(s.rays[0].unblocked, by_lens ? 0.0f : 1.0f), set(s.rays[0].received, lit ? 1.0f : 0.0f);
+    s.rays[0].slope = 1, s.rays[0].extent[0] = s.rays[0].extent[1] = by_lens ? 0 : 5;
+    s.coc[0] = s.coc[1] = by_lens ? 5 : 0;
+  };
+  const Image image = frame.render(std::make_unique<RingingMethod>());
+  float least = 1, most = 0;
+  for (const float value : image.channels[0].values)
+    least = std::min(least, value), most = std::max(most, value);
+  CHECK(least == 0);
+  if (!by_lens) CHECK(most == 1);
+  if (by_lens) CHECK(most < 1.6f);
+}
+
 TEST_CASE("Rare light in the dark is shared, not an outlier", "[reconstruction]") {
   DistributionFrame frame(60, 60);
   frame.settings.features.shadow = true;
@@ -326,6 +372,14 @@ TEST_CASE("Degenerate frames give finite pixels", "[reconstruction]") {
       shade(s);
       s.rays[0].slope = inf, s.rays[1].extent[0] = inf, s.coc[0] = inf, s.velocity[1] = -inf;
     };
+    PixelFacts facts(frame.settings.film.crop, frame.settings.features);
+    facts.add(frame.bucket(frame.settings.film.crop), 1);
+    for (const WedgePlanes& wedges : facts.wedges)
+      for (size_t p = 0; p < 1200; ++p)
+        for (size_t a = 0; a < 2; ++a) {
+          REQUIRE(std::abs(wedges.axis(a, p).low) <= PixelFacts::max_shift);
+          REQUIRE(std::abs(wedges.axis(a, p).high) <= PixelFacts::max_shift);
+        }
   }
   SECTION("huge slopes and shifts") {
     frame.shade = [=](SceneSample& s) {
