@@ -315,7 +315,7 @@ TEST_CASE("Rare light in the dark is shared, not an outlier", "[reconstruction]"
   DistributionFrame frame(60, 60);
   frame.settings.features.shadow = true;
   frame.shade = [](SceneSample& s) {
-    const bool lit = std::abs(s.x - 30) < 1 && std::abs(s.y - 30) < 1 && s.t < 0.5f;
+    const bool lit = s.x > 30 && s.x < 31 && s.y > 30 && s.y < 31;
     set(s.rays[0].unblocked, 1), set(s.rays[0].received, lit ? 1.0f : 0.0f);
     s.rays[0].slope = 1, s.rays[0].extent[0] = s.rays[0].extent[1] = 10;
   };
