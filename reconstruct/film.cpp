@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "reconstruct/exposure.h"
+#include "reconstruct/groups.h"
 #include "reconstruct/pixel_filter.h"
 #include "reconstruct/product_sums.h"
 #include "reconstruct/reconstruct.h"
@@ -19,23 +20,6 @@ float checked_width(const char* axis, float width) {
     throw Error(fmt::format("pixel filter {} width must be above 0 and up to 64 pixels, found {}",
                             axis, width));
   return width;
-}
-
-/// Place of the group called `name`, or -1.
-int find_group(const std::vector<const AovDefinition*>& groups, std::string_view name) {
-  for (size_t g = 0; g < groups.size(); ++g)
-    if (name == groups[g]->name) return int(g);
-  return -1;
-}
-
-/// Channels that one frame may filter: more than every group together has.
-constexpr size_t max_channels = 1024;
-
-void check_channels(const std::vector<const AovDefinition*>& groups) {
-  size_t channels = 0;
-  for (const AovDefinition* group : groups) channels += group->channels.size();
-  if (channels > max_channels)
-    throw Error(fmt::format("{} channels asked for, at most {} can be", channels, max_channels));
 }
 
 }  // namespace

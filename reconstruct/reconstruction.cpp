@@ -10,6 +10,7 @@
 #include "reconstruct/effect_filter.h"
 #include "reconstruct/exposure.h"
 #include "reconstruct/filter_table.h"
+#include "reconstruct/groups.h"
 #include "reconstruct/sample_moments.h"
 #include "reconstruct/weighted_taps.h"
 
@@ -29,13 +30,6 @@ class FilmReconstruction final : public Reconstruction {
  private:
   Film film_;
 };
-
-/// Place of the group called `name`, or -1.
-int find_group(const std::vector<const AovDefinition*>& groups, std::string_view name) {
-  for (size_t g = 0; g < groups.size(); ++g)
-    if (name == groups[g]->name) return int(g);
-  return -1;
-}
 
 /// Autocorrelation of a pixel filter along one axis at whole pixels, 1 at 0.
 std::array<float, NoiseCorrelation::reach + 1> autocorrelation(const FilmSettings& film,

@@ -1,0 +1,203 @@
+#include <catch2/catch.hpp>
+
+#include "reconstruct/pixel_facts.h"
+#include "tests/reconstruct/distribution_frames.h"
+
+using namespace tessera;
+using namespace tessera::test;
+
+namespace {
+
+/// Weights below 0 to either side, as the best linear filters have them.
+class RingingMethod : public GaussianMethod {
+ public:
+  RingingMethod() : GaussianMethod(false) {}
+  void weights(const AxisWedge& wedge, float samples, float* out) const override {
+    float wide[21];
+    GaussianMethod::weights({2 * wedge.low, 2 * wedge.high}, samples, wide);
+    GaussianMethod::weights(wedge, samples, out);
+    for (int k = 0; k < 21; ++k) out[k] = 3 * out[k] - 2 * wide[k];
+  }
+};
+
+}  // namespace
+
+TEST_CASE("Fireflies stay where they are", "[reconstruction]") {
+  const bool guarded = GENERATE(false, true);
+  DistributionFrame frame = busy_frame(64, 64);
+  frame.samples_per_pixel = 8;
+  const auto shade = frame.shade;
+  const Image without = frame.render(gaussian(guarded));
+  const float fire = GENERATE(1e5f, 1e30f);
+  frame.shade = [=](SceneSample& s) {
+    shade(s);
+    if (s.x > 30 && s.x < 31 && s.y > 33 && s.y < 34 && s.t < 0.12f)
+      set(s.rays[1].received, fire), s.rays[1].slope = 1;
+  };
+  const Image plain = frame.render(nullptr), with = frame.render(gaussian(guarded));
+  CHECK(all_finite(with));
+  REQUIRE(mean_of(plain) > 1e-4 * fire / (64 * 64));  // it is there
+  CHECK(mean_of(with) == Approx(mean_of(plain)).epsilon(0.01));
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const size_t p = with.index(x, y);
+      if (std::abs(x - 30) > 1 || std::abs(y - 33) > 1)
+        REQUIRE(std::abs(with.channels[0].values[p] - without.channels[0].values[p]) < 0.2f);
+    }
+}
+
+TEST_CASE("Filtered light is neither below 0 nor above what nothing blocks", "[reconstruction]") {
+  DistributionFrame frame(96, 40);
+  frame.settings.features.lens = frame.settings.features.shadow = true;
+  const bool by_lens = GENERATE(false, true);
+  frame.shade = [=](SceneSample& s) {
+    const bool lit = s.x < 48 && !by_lens, near_edge = by_lens && s.x < 48;
+    set(s.base, near_edge ? 1.0f : 0.0f);
+    set(s.rays[0].unblocked, by_lens ? 0.0f : 1.0f), set(s.rays[0].received, lit ? 1.0f : 0.0f);
+    s.rays[0].slope = 1, s.rays[0].extent[0] = s.rays[0].extent[1] = by_lens ? 0 : 5;
+    s.coc[0] = s.coc[1] = by_lens ? 5 : 0;
+  };
+  const Image image = frame.render(std::make_unique<RingingMethod>());
+  float least = 1, most = 0;
+  for (const float value : image.channels[0].values)
+    least = std::min(least, value), most = std::max(most, value);
+  CHECK(least == 0);
+  if (!by_lens) CHECK(most == 1);
+  if (by_lens) CHECK(most < 1.6f);
+}
+
+TEST_CASE("Rare light in the dark is shared, not an outlier", "[reconstruction]") {
+  DistributionFrame frame(60, 60);
+  frame.settings.features.shadow = true;
+  frame.shade = [](SceneSample& s) {
+    const bool lit = s.x > 30 && s.x < 31 && s.y > 30 && s.y < 31;
+    set(s.rays[0].unblocked, 1), set(s.rays[0].received, lit ? 1.0f : 0.0f);
+    s.rays[0].slope = 1, s.rays[0].extent[0] = s.rays[0].extent[1] = 10;
+  };
+  frame.samples_per_pixel = 1;
+  const Image plain = frame.render(nullptr), filtered = frame.render(gaussian());
+  const size_t at = plain.index(30, 30);
+  float most = 0;
+  for (const float value : filtered.channels[0].values) most = std::max(most, value);
+  REQUIRE(mean_of(plain) > 0);
+  CHECK(most < 0.05f);
+  CHECK(filtered.channels[0].values[at] > 0);
+  CHECK(mean_of(filtered) == Approx(mean_of(plain)).epsilon(0.01));
+}
+
+TEST_CASE("Hard edges do not ring, and the other side is not shared", "[reconstruction]") {
+  // A penumbra that ends at an edge where the surface turns: left lit half, right not at all.
+  DistributionFrame frame(64, 32);
+  frame.settings.features.shadow = true;
+  frame.shade = [](SceneSample& s) {
+    SceneSample::Ray& ray = s.rays[0];
+    const bool left = s.x < 32;
+    const bool lit = left ? ray.y[0] < 0 : false;
+    set(ray.unblocked, 1), set(ray.received, lit ? 1.0f : 0.0f);
+    s.N[0] = left ? 0.0f : 1.0f, s.N[2] = left ? 1.0f : 0.0f;
+    ray.extent[0] = ray.extent[1] = 16;
+    if (!lit) ray.slope = 0.5f;
+  };
+  const Image image = frame.render(gaussian(false));
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const float value = image.channels[0].values[image.index(x, y)];
+      if (x < 32) REQUIRE(value == Approx(0.5).margin(0.3));
+      if (x >= 32) REQUIRE(value == 0.0f);
+    }
+}
+
+TEST_CASE("Degenerate frames give finite pixels", "[reconstruction]") {
+  DistributionFrame frame = busy_frame(40, 30);
+  const auto shade = frame.shade;
+  SECTION("one sample a pixel") { frame.samples_per_pixel = 1; }
+  SECTION("nothing seen") {
+    frame.shade = [](SceneSample& s) { s.surface = 0, s.alpha = 0; };
+    const Image image = frame.render(gaussian());
+    CHECK(mean_of(image) == 0);
+  }
+  SECTION("no distance known") {
+    frame.shade = [=](SceneSample& s) {
+      shade(s);
+      for (auto& ray : s.rays) ray.extent[0] = ray.extent[1] = 0;
+    };
+  }
+  SECTION("infinite slopes, extents and shifts") {
+    frame.shade = [=](SceneSample& s) {
+      shade(s);
+      s.rays[0].slope = inf, s.rays[1].extent[0] = inf, s.coc[0] = inf, s.velocity[1] = -inf;
+    };
+    PixelFacts facts(frame.settings.film.crop, frame.settings.features);
+    facts.add(frame.bucket(frame.settings.film.crop), 1);
+    for (const WedgePlanes& wedges : facts.wedges)
+      for (size_t p = 0; p < 1200; ++p)
+        for (size_t a = 0; a < 2; ++a) {
+          REQUIRE(std::abs(wedges.axis(a, p).low) <= PixelFacts::max_shift);
+          REQUIRE(std::abs(wedges.axis(a, p).high) <= PixelFacts::max_shift);
+        }
+  }
+  SECTION("huge slopes and shifts") {
+    frame.shade = [=](SceneSample& s) {
+      shade(s);
+      s.rays[0].slope = 1e30f, s.rays[1].extent[0] = 1e30f, s.coc[0] = -1e30f;
+      s.velocity[1] = 1e30f;
+    };
+  }
+  SECTION("coordinates that are no numbers") {
+    frame.shade = [=](SceneSample& s) {
+      shade(s);
+      s.rays[0].y[0] = s.u[1] = s.t = std::numeric_limits<float>::quiet_NaN();
+    };
+  }
+  SECTION("huge light") {
+    frame.shade = [=](SceneSample& s) {
+      shade(s);
+      for (auto& ray : s.rays) {
+        for (float& value : ray.received) value *= 1e30f;
+        for (float& value : ray.unblocked) value *= 1e30f;
+      }
+    };
+  }
+  SECTION("tiny light") {
+    frame.shade = [=](SceneSample& s) {
+      shade(s);
+      for (auto& ray : s.rays) {
+        for (float& value : ray.received) value *= 1e-38f;
+        for (float& value : ray.unblocked) value *= 1e-38f;
+      }
+    };
+  }
+  CHECK(all_finite(frame.render(gaussian(true))));
+  CHECK(all_finite(frame.render(gaussian(false))));
+}
+
+TEST_CASE("A frame cut short shows what arrived", "[reconstruction]") {
+  const DistributionFrame frame = busy_frame(64, 48);
+  const Image whole = frame.render(gaussian());
+  const auto cut_short = make_reconstruction(frame.settings, gaussian());
+  for (int b = 0; b < 9; ++b) {  // two of three rows of buckets, and one more
+    const int x = 16 * (b % 4), y = 16 * (b / 4);
+    cut_short->add_bucket(b % 4, b / 4, frame.bucket({x, y, x + 16, y + 16}));
+  }
+  const Image cut = cut_short->finish();
+  CHECK(all_finite(cut));
+  const int reach = reconstruction_reach(*gaussian()) + 1;
+  for (int y = 0; y < 32 - reach; ++y)
+    REQUIRE(cut.channels[0].values[cut.index(33, y)] ==
+            whole.channels[0].values[whole.index(33, y)]);
+  CHECK(cut.channels[0].values[cut.index(33, 28)] > 0.05f);
+  CHECK(cut.channels[0].values[cut.index(40, 47)] == 0);
+}
+
+TEST_CASE("A sample that is not finite counts for nothing and is counted", "[reconstruction]") {
+  DistributionFrame frame = busy_frame(40, 30);
+  const auto shade = frame.shade;
+  frame.shade = [=](SceneSample& s) {
+    shade(s);
+    if (s.x > 20 && s.x < 21 && s.y > 10 && s.y < 11 && s.t < 0.3f)
+      s.rays[0].received[1] = std::numeric_limits<float>::quiet_NaN();
+  };
+  FilmCounters counters;
+  CHECK(all_finite(frame.render(gaussian(), 0, 1, &counters)));
+  CHECK(counters.nonfinite_samples_dropped > 0);
+}
