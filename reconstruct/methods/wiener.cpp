@@ -22,6 +22,7 @@ class Wiener : public ReconstructionMethod {
   int degree(int k) const override { return k; }
   int max_degree() const override { return components_ - 1; }
   int reach() const override { return WienerTable::reach; }
+  bool guarded() const override { return true; }
 
   void weights(const AxisWedge& wedge, float samples, float* out) const override {
     // Who asks only for the basis or the reach does not wait for the table.
