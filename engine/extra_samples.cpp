@@ -48,6 +48,15 @@ void regroup(const std::vector<Origin>& origins, size_t channels, const std::vec
   values = std::move(merged);
 }
 
+/// A bucket in which an effect lights nothing has no arrays for it.
+void even_out(EffectValues& a, size_t a_count, EffectValues& b, size_t b_count) {
+  if (a.empty() == b.empty()) return;
+  const bool fill_a = a.empty();
+  EffectValues &empty = fill_a ? a : b, &other = fill_a ? b : a;
+  empty.resize(fill_a ? a_count : b_count);
+  if (!other.drawn[0].empty()) empty.add_drawn();
+}
+
 /// Calls f(own, extra) for every array of the two that has one entry a sample.
 template <class F>
 void for_arrays(DistributionSamples& own, const DistributionSamples& extra, F f) {
@@ -55,7 +64,7 @@ void for_arrays(DistributionSamples& own, const DistributionSamples& extra, F f)
     EffectValues& a = own.effects[e];
     const EffectValues& b = extra.effects[e];
     for (size_t c = 0; c < 3; ++c)
-      f(a.received[c], b.received[c]), f(a.unblocked[c], b.unblocked[c]);
+      f(a.received[c], b.received[c]), f(a.unblocked[c], b.unblocked[c]), f(a.drawn[c], b.drawn[c]);
     for (size_t c = 0; c < 2; ++c) f(a.y[c], b.y[c]), f(a.extent[c], b.extent[c]);
     f(a.slope, b.slope);
   }
@@ -141,7 +150,7 @@ void keep_chosen(const std::vector<uint8_t>& chosen, const PixelRect& rect, uint
   fragments = std::move(kept);
 }
 
-void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, const SampleValues& extra,
+void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValues&& extra,
                   SampleValues& values) {
   const size_t pixels = size_t(values.rect.pixel_count());
   const auto spp = uint32_t(values.samples_per_pixel), more = uint32_t(extra.samples_per_pixel);
@@ -161,6 +170,9 @@ void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, const Samp
     first_of_pixel.push_back(uint32_t(origins.size()));
   }
   const size_t before = values.x.size();
+  for (size_t e = 0; e < ray_effect_count; ++e)
+    even_out(values.distribution.effects[e], before, extra.distribution.effects[e],
+             extra.x.size());
   const auto merge = [&](std::vector<float>& own, const std::vector<float>& other) {
     regroup(origins, 1, other, own);
   };

@@ -46,7 +46,7 @@ void keep_chosen(const std::vector<uint8_t>& chosen, const PixelRect& rect, uint
 
 /// Appends to each pixel of `values` with chosen[pixel] == choice its samples in `extra`, whose
 /// rectangle lies within that of `values`.
-void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, const SampleValues& extra,
+void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValues&& extra,
                   SampleValues& values);
 
 }  // namespace tessera

@@ -82,6 +82,34 @@ std::shared_ptr<const RayTracer> ray_tracer(const FramePlan& plan, const Scene& 
   return make_ray_tracer(scene, camera, rays, diagnostics);
 }
 
+/// sqrt(3) times the root mean square of `distance_of(k)` over k < `count`.
+template <class DistanceOf>
+float spread(int count, const DistanceOf& distance_of) {
+  double squares = 0;
+  for (int k = 0; k < count; ++k) {
+    const double distance = distance_of(k);
+    squares += distance * distance;
+  }
+  return float(std::sqrt(3 * squares / count));
+}
+
+/// ReconstructionSettings::lens_spread, by midpoints of 64 x 64 strata.
+float lens_spread(const LensProfile& lens) {
+  constexpr int side = 64;
+  return spread(side * side, [&](int k) {
+    const glm::vec2 at =
+        lens.sample((float(k % side) + 0.5f) / side, (float(k / side) + 0.5f) / side);
+    return std::sqrt(0.5 * double(glm::dot(at, at)));
+  });
+}
+
+/// ReconstructionSettings::time_spread, by midpoints of 1024 strata.
+float time_spread(const ShutterProfile& shutter) {
+  constexpr int strata = 1024;
+  return spread(strata,
+                [&](int k) { return double(shutter.sample((float(k) + 0.5f) / strata)) - 0.5; });
+}
+
 BucketLayout bucket_layout(const FramePlan& plan, const Camera& camera) {
   const int reach = plan.filters_distribution() ? reconstruction_reach(plan.reconstruct) : 0;
   const PixelRect crop = camera.crop();
@@ -100,7 +128,8 @@ std::unique_ptr<Reconstruction> reconstruction(const FramePlan& plan, const Buck
   settings.method = plan.reconstruct;
   settings.features = plan.distribution();
   settings.threads = threads;
-  if (plan.lens) settings.lens_extent = camera.lens_profile().extent();
+  if (plan.lens) settings.spreads.lens = lens_spread(camera.lens_profile());
+  if (plan.motion) settings.spreads.time = time_spread(camera.shutter_profile());
   FilmSettings& film = settings.film;
   film.display_window = camera.frame();
   film.crop = camera.crop();

@@ -1,5 +1,5 @@
 #pragma once
-/// A colour that is filtered by itself: unfiltered, how noisy it is, and filtered.
+/// A colour that is filtered by itself: unfiltered, how noisy it is, and filtered in several ways.
 
 #include <array>
 #include <cmath>
@@ -9,24 +9,25 @@
 
 namespace tessera {
 
+/// One filtered version of a colour.
+struct Candidate {
+  Planes filtered;  ///< [channel][pixel]
+  /// Share of the filtered value that the pixel's own noise has, of the noise of what is
+  /// unfiltered.
+  std::vector<float> own_weight;
+};
+
 /// Planes [channel][pixel] of a rectangle `width` pixels wide.
 struct Component {
   Component(int row_width, int rows)
-      : width(row_width),
-        height(rows),
-        plain(3, std::vector<float>(pixels())),
-        variance(plain),
-        filtered(plain),
-        own_weight(pixels()) {}
+      : width(row_width), height(rows), plain(3, std::vector<float>(pixels())), variance(plain) {}
 
   size_t pixels() const { return size_t(width) * size_t(height); }
 
   int width, height;
   Planes plain;
   Planes variance;  ///< of `plain`; below 0: not known
-  Planes filtered;
-  /// Share of the filtered value that the pixel's own noise has, of the noise of `plain`.
-  std::vector<float> own_weight;
+  std::vector<Candidate> candidates{};
 };
 
 /// A quotient of two sums of samples and the variance of its noise, told from two halves of the

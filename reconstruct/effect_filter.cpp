@@ -15,6 +15,16 @@ namespace {
 /// Weights that sum to less than this share of what they should make no average.
 constexpr float least_normaliser = 0.02f;
 
+/// Wedges that guarded methods try, as shares of the way from the least shift to the largest:
+/// slopes that were met are no sign of how often they were.
+constexpr float candidate_widths[] = {1.0f, 0.25f};
+
+/// What lens or motion blur, filtered: of all values.
+struct SurfaceFilter {
+  StackFilterOutput lens, motion;  ///< empty where the frame has no such blur
+  const StackFilterOutput& at(bool along_motion) const { return along_motion ? motion : lens; }
+};
+
 class EffectFilter {
  public:
   explicit EffectFilter(const EffectFilterInput& input)
@@ -46,8 +56,8 @@ class EffectFilter {
   const std::vector<float>& mean(size_t value) const { return planes_[layout_.mean_plane(value)]; }
   const std::vector<float>& even(size_t value) const { return planes_[layout_.even_plane(value)]; }
   const WedgePlanes& wedges(Blur blur) const { return in_.facts->wedges[size_t(blur)]; }
-  StackFilterInput stack_input(Blur blur, const std::vector<float>* shared) const {
-    return {layout_.stack(blur), in_.method, in_.planes, in_.facts, shared, in_.correlation, 1.0f};
+  StackFilterInput stack_input(Blur blur, const std::vector<float>* shared, float width) const {
+    return {layout_.stack(blur), in_.planes, in_.facts, shared, in_.correlation, width};
   }
 
   void choose_coordinates();
@@ -56,7 +66,9 @@ class EffectFilter {
   Planes through_lens(size_t value) const;
   void describe_plain(size_t value, Component& component) const;
   Planes filter_received(RayEffect effect) const;
-  void describe_ratio(RayEffect effect, const StackFilterOutput& filtered, Component& out) const;
+  void describe_ratio(RayEffect effect, Component& out) const;
+  template <class From>
+  void add_ratio(RayEffect effect, size_t first, const From& from, Component& component) const;
   std::vector<float> shared_ratios(RayEffect effect, const Component& ratio) const;
   Planes blend(const Component& component, const std::vector<float>* shared) const;
 
@@ -65,10 +77,10 @@ class EffectFilter {
   const Planes& planes_;
   int width_, height_;
   size_t pixels_;
-  std::vector<uint8_t> along_motion_;  ///< [pixel] motion blurs more than the lens
-  std::vector<float> surface_shift_;   ///< [pixel] least blur by lens or motion, pixels
-  std::vector<float> shared_;          ///< of lens and motion
-  StackFilterOutput lens_, motion_;    ///< of all values; empty where the frame has no such blur
+  std::vector<uint8_t> along_motion_;    ///< [pixel] motion blurs more than the lens
+  std::vector<float> surface_shift_;     ///< [pixel] least blur by lens or motion, pixels
+  std::vector<float> shared_;            ///< of lens and motion
+  std::vector<SurfaceFilter> surfaces_;  ///< one a candidate; none without lens and motion
 };
 
 void EffectFilter::choose_coordinates() {
@@ -103,8 +115,14 @@ void EffectFilter::filter_surfaces() {
   const bool lens = layout_.stack(Blur::lens), motion = layout_.stack(Blur::motion);
   if (!lens && !motion) return;
   shared_ = shared_surfaces();
-  if (lens) lens_ = filter_stack(stack_input(Blur::lens, &shared_));
-  if (motion) motion_ = filter_lines(stack_input(Blur::motion, &shared_), along_motion_);
+  const size_t count = in_.method->guarded() ? std::size(candidate_widths) : 1;
+  for (size_t k = 0; k < count; ++k) {
+    SurfaceFilter& filter = surfaces_.emplace_back();
+    const float width = candidate_widths[k];
+    if (lens) filter.lens = filter_stack(stack_input(Blur::lens, &shared_, width));
+    if (motion)
+      filter.motion = filter_lines(stack_input(Blur::motion, &shared_, width), along_motion_);
+  }
 }
 
 void EffectFilter::describe_plain(size_t value, Component& component) const {
@@ -120,35 +138,44 @@ void EffectFilter::describe_plain(size_t value, Component& component) const {
 
 /// Three values from `value` on, filtered along lens or motion; as they are where there is neither.
 Planes EffectFilter::through_lens(size_t value) const {
-  if (lens_.values.empty() && motion_.values.empty())
-    return {mean(value), mean(value + 1), mean(value + 2)};
+  if (surfaces_.empty()) return {mean(value), mean(value + 1), mean(value + 2)};
   Component component(width_, height_);
   describe_plain(value, component);
-  for_pixels([&](size_t p) {
-    const StackFilterOutput& from = along_motion_[p] ? motion_ : lens_;
-    const float normaliser = from.values[MomentLayout::one][p];
-    const bool usable = normaliser > least_normaliser;
-    component.own_weight[p] = usable ? from.own_weight[p] / normaliser : 1.0f;
-    for (size_t c = 0; c < 3; ++c) {
-      const float plain = component.plain[c][p], filtered = from.values[value + c][p] / normaliser;
-      const bool good = usable && std::isfinite(filtered);
-      // Weights below 0 may overshoot an edge; light does not fall below 0.
-      component.filtered[c][p] = !good ? plain : (plain >= 0 ? std::max(filtered, 0.0f) : filtered);
-    }
-  });
+  for (const SurfaceFilter& filter : surfaces_) {
+    Candidate& candidate = component.candidates.emplace_back(Candidate{component.plain, {}});
+    candidate.own_weight.resize(pixels_);
+    for_pixels([&](size_t p) {
+      const StackFilterOutput& from = filter.at(along_motion_[p]);
+      const float normaliser = from.values[MomentLayout::one][p];
+      const bool usable = normaliser > least_normaliser;
+      candidate.own_weight[p] = usable ? from.own_weight[p] / normaliser : 1.0f;
+      for (size_t c = 0; c < 3 && usable; ++c) {
+        const float filtered = from.values[value + c][p] / normaliser;
+        // Weights below 0 may overshoot an edge; light does not fall below 0.
+        if (std::isfinite(filtered))
+          candidate.filtered[c][p] =
+              component.plain[c][p] >= 0 ? std::max(filtered, 0.0f) : filtered;
+      }
+    });
+  }
   return blend(component, &shared_);
 }
 
 Planes EffectFilter::blend(const Component& component, const std::vector<float>* shared) const {
-  std::vector<float> shares;
-  if (in_.method->guarded()) shares = filtered_shares(component, in_.correlation, shared);
+  std::vector<std::vector<float>> shares;
+  if (in_.method->guarded()) {
+    shares = filtered_shares(component, in_.correlation, shared);
+  } else {
+    shares.emplace_back(shared ? *shared : std::vector<float>(pixels_, 1.0f));
+  }
   Planes out = component.plain;
   for_pixels([&](size_t p) {
-    const float unguarded = !shared || (*shared)[p] != 0.0f ? 1.0f : 0.0f;
-    const float share = shares.empty() ? unguarded : shares[p];
-    if (share == 0.0f) return;
-    for (size_t c = 0; c < 3; ++c)
-      out[c][p] += share * (component.filtered[c][p] - component.plain[c][p]);
+    for (size_t k = 0; k < shares.size(); ++k) {
+      const float share = shares[k][p];
+      if (share == 0.0f) continue;
+      for (size_t c = 0; c < 3; ++c)
+        out[c][p] += share * (component.candidates[k].filtered[c][p] - component.plain[c][p]);
+    }
   });
   return out;
 }
@@ -171,59 +198,93 @@ std::vector<float> EffectFilter::shared_ratios(RayEffect effect, const Component
   return shared_pixels(value, even_part, width_, height_, in_.noise_spread);
 }
 
-/// What arrived over what would unblocked, before and after filtering.
-void EffectFilter::describe_ratio(RayEffect effect, const StackFilterOutput& filtered,
-                                  Component& out) const {
-  const size_t received = layout_.received(effect), unblocked = layout_.unblocked(effect);
+/// What arrived over what would from the same places, unfiltered.
+void EffectFilter::describe_ratio(RayEffect effect, Component& out) const {
+  const size_t received = layout_.received(effect), drawn = layout_.drawn(effect);
+  for_pixels([&](size_t p) {
+    for (size_t c = 0; c < 3; ++c) {
+      const Quotient plain = halves_quotient(mean(received + c)[p], even(received + c)[p],
+                                             mean(drawn + c)[p], even(drawn + c)[p]);
+      out.plain[c][p] = plain.value;
+      out.variance[c][p] = plain.variance;
+    }
+  });
+}
+
+/// The ratio of filtered sums: values[first ..] what arrived, three on what would. `from(p)` gives
+/// the filter's output for a pixel, null where it has none.
+template <class From>
+void EffectFilter::add_ratio(RayEffect effect, size_t first, const From& from,
+                             Component& component) const {
+  const size_t drawn = layout_.drawn(effect);
   // No light is brighter than without what is in its way; what bounces may be as bright as it
   // likes.
   const float most = effect == RayEffect::shadow ? 1.0f : std::numeric_limits<float>::max();
+  Candidate& candidate = component.candidates.emplace_back(Candidate{component.plain, {}});
+  candidate.own_weight.assign(pixels_, 1.0f);
   for_pixels([&](size_t p) {
+    const StackFilterOutput* filtered = from(p);
+    if (!filtered) return;
     float own = 0;
     for (size_t c = 0; c < 3; ++c) {
-      const float sum = mean(received + c)[p], divisor = mean(unblocked + c)[p];
-      const Quotient plain =
-          halves_quotient(sum, even(received + c)[p], divisor, even(unblocked + c)[p]);
-      out.plain[c][p] = plain.value;
-      out.variance[c][p] = plain.variance;
-      out.filtered[c][p] = plain.value;
-      const float normaliser = filtered.values[3 + c][p];
-      const float ratio = filtered.values[c][p] / normaliser;
+      const float plain = component.plain[c][p], divisor = mean(drawn + c)[p];
+      const float normaliser = filtered->values[first + 3 + c][p];
+      const float ratio = filtered->values[first + c][p] / normaliser;
       if (!std::isfinite(ratio) || !(normaliser / divisor > least_normaliser)) continue;
-      out.filtered[c][p] =
-          plain.value >= 0 ? std::clamp(ratio, 0.0f, std::max(most, plain.value)) : ratio;
-      own = std::max(own, filtered.own_weight[p] * (divisor / normaliser));
+      candidate.filtered[c][p] =
+          plain >= 0 ? std::clamp(ratio, 0.0f, std::max(most, plain)) : ratio;
+      own = std::max(own, filtered->own_weight[p] * (divisor / normaliser));
     }
-    out.own_weight[p] = own;
+    candidate.own_weight[p] = own;
   });
 }
 
 /// A ray effect's light: along its own coordinate or, where lens or motion blur more, along theirs.
 Planes EffectFilter::filter_received(RayEffect effect) const {
   const Blur blur = Blur(effect);
-  const size_t received = layout_.received(effect), unblocked = layout_.unblocked(effect);
+  const size_t received = layout_.received(effect), drawn = layout_.drawn(effect);
   Component ratio(width_, height_);
-  std::vector<float> shared;
-  {
-    const Planes empty(6, std::vector<float>(pixels_));
-    describe_ratio(effect, {empty, std::vector<float>(pixels_)}, ratio);
-    shared = shared_ratios(effect, ratio);
-    describe_ratio(effect, filter_stack(stack_input(blur, &shared)), ratio);
+  describe_ratio(effect, ratio);
+  const std::vector<float> shared = shared_ratios(effect, ratio);
+  const auto by_surface = [&](size_t p) { return surface_shift_[p] > wedges(blur).sure_shift(p); };
+  if (in_.method->guarded()) {
+    for (const float width : candidate_widths) {
+      const StackFilterOutput own = filter_stack(stack_input(blur, &shared, width));
+      add_ratio(
+          effect, 0, [&](size_t) { return &own; }, ratio);
+    }
+    for (const SurfaceFilter& filter : surfaces_)
+      add_ratio(
+          effect, received, [&](size_t p) { return &filter.at(along_motion_[p]); }, ratio);
+  } else {
+    const StackFilterOutput own = filter_stack(stack_input(blur, &shared, 1.0f));
+    add_ratio(
+        effect, 0, [&](size_t p) { return by_surface(p) ? nullptr : &own; }, ratio);
+    if (!surfaces_.empty()) {
+      Candidate& chosen = ratio.candidates.front();
+      Component lens = ratio;
+      lens.candidates.clear();
+      add_ratio(
+          effect, received,
+          [&](size_t p) {
+            return by_surface(p) ? &surfaces_.front().at(along_motion_[p]) : nullptr;
+          },
+          lens);
+      for_pixels([&](size_t p) {
+        if (!by_surface(p)) return;
+        for (size_t c = 0; c < 3; ++c)
+          chosen.filtered[c][p] = lens.candidates.front().filtered[c][p];
+      });
+    }
   }
   const Planes own_ratio = blend(ratio, &shared);
-  const Planes light = through_lens(unblocked);
-  Planes out = through_lens(received);
+  const Planes light = through_lens(layout_.unblocked(effect));
+  const Planes plain = through_lens(received);
+  Planes out = plain;
   for_pixels([&](size_t p) {
-    const float own_shift = wedges(blur).sure_shift(p);
-    if (surface_shift_[p] > own_shift) return;
-    for (size_t c = 0; c < 3; ++c) {
-      if (!(std::abs(mean(unblocked + c)[p]) > smallest_divisor)) continue;
-      // As it came where nothing changed it, without the rounding of a division.
-      if (own_ratio[c][p] == ratio.plain[c][p] && light[c][p] == mean(unblocked + c)[p])
-        out[c][p] = mean(received + c)[p];
-      else
+    for (size_t c = 0; c < 3; ++c)
+      if (std::abs(mean(drawn + c)[p]) > smallest_divisor)
         out[c][p] = light[c][p] * own_ratio[c][p];
-    }
   });
   return out;
 }

@@ -12,16 +12,17 @@ class LineFilter {
  public:
   explicit LineFilter(const StackFilterInput& input)
       : input_(input),
-        reach_(input.method->reach()),
+        reach_(input.stack->method->reach()),
         taps_(size_t(2 * reach_ + 1)),
-        weights_(size_t(input.method->basis_count()) * taps_) {}
+        weights_(size_t(input.stack->method->basis_count()) * taps_) {}
 
   void filter(int x, int y, StackFilterOutput& out) {
     const PixelFacts& facts = *input_.facts;
     const size_t at = facts.index(x, y);
     const WedgePlanes& wedges = facts.wedges[size_t(input_.stack->blur)];
     const BlurLine line = blur_line(wedges, at);
-    input_.method->weights(line.wedge, facts.samples[at] * input_.samples_scale, weights_.data());
+    input_.stack->method->weights(narrowed(line.wedge, input_.wedge_width), facts.samples[at],
+                                  weights_.data());
     for (int d = -reach_; d <= reach_; ++d) {
       const int qx = x + int(std::lround(float(d) * line.dx));
       const int qy = y + int(std::lround(float(d) * line.dy));

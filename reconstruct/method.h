@@ -3,7 +3,8 @@
 /// one code path runs them all: each pixel sums its samples weighted by a few functions of their
 /// coordinate (moments), and a pixel's result is a weighted sum of its neighbours' moments,
 ///
-///   h(x) = sum over k, dx of A_k(dx; wedge at x) * m_k(x + dx),  m_k = mean over samples of B_k(y) f
+///   h(x) = sum over k, dx of A_k(dx; wedge at x) * m_k(x + dx),  m_k = mean over samples of B_k(y)
+///   f
 ///
 /// divided by the same sum over f = 1. Two image axes are the product of two such filters. See
 /// shade/effects.h for what y and slopes are.
@@ -20,7 +21,8 @@ struct AxisWedge {
   float low = 0, high = 0;
 };
 
-/// A sample's coordinate along one axis and, where a second effect acts at the same time, that one's.
+/// A sample's coordinate along one axis and, where a second effect acts at the same time, that
+/// one's.
 struct BasisPoint {
   float y = 0;
   AxisWedge wedge;
@@ -48,9 +50,13 @@ class ReconstructionMethod {
   /// Whether its result is blended with the unfiltered image where that has the smaller expected
   /// error (reconstruct/guard.h); B_0 must be 1 then.
   virtual bool guarded() const { return false; }
+  /// The method for bounces, whose patterns are no edges; of the same reach or less. It lives as
+  /// long as this one.
+  virtual const ReconstructionMethod& for_bounces() const { return *this; }
 };
 
-/// A method, one file of reconstruct/methods/ each. `--reconstruct name:arguments` picks and tunes it.
+/// A method, one file of reconstruct/methods/ each. `--reconstruct name:arguments` picks and tunes
+/// it.
 struct ReconstructionMethodDefinition {
   const char* name;
   const char* help;

@@ -25,12 +25,14 @@ MomentLayout::MomentLayout(const DistributionFeatures& features,
   for (size_t e = 0; e < ray_effect_count; ++e) {
     if (!(RayEffect(e) == RayEffect::shadow ? features.shadow : features.bounce)) continue;
     effects_[e] = value_count_;
-    value_count_ += 6;
+    value_count_ += RayEffect(e) == RayEffect::shadow ? 9 : 6;
   }
   carried_count_ = value_count_ + 2;
   plane_count_ = 2 * value_count_;
   for (size_t e = 0; e < ray_effect_count; ++e)
-    if (has(RayEffect(e))) add_stack(Blur(e), effects_[e], 6, method);
+    if (has(RayEffect(e)))
+      add_stack(Blur(e), effects_[e], 6,
+                RayEffect(e) == RayEffect::bounce ? method.for_bounces() : method);
   if (features.lens) add_stack(Blur::lens, 0, value_count_, method);
   if (features.motion) add_stack(Blur::motion, 0, value_count_, method);
 }
@@ -40,7 +42,7 @@ void MomentLayout::add_stack(Blur blur, size_t first_value, size_t values,
   MomentStack& stack = stacks_.emplace_back();
   stack.blur = blur;
   stack.pairs = basis_pairs(blur, method);
-  stack.basis_count = method.basis_count();
+  stack.method = &method;
   stack.first_factor = carried_count_;
   stack.first_value = first_value, stack.value_count = values;
   stack.first_plane = plane_count_;

@@ -24,7 +24,7 @@ struct BasisPair {
 struct MomentStack {
   Blur blur = Blur::shadow;
   std::vector<BasisPair> pairs;
-  int basis_count = 0;
+  const ReconstructionMethod* method = nullptr;
   size_t first_factor = 0;  ///< among the carried channels, one factor a pair
   size_t first_value = 0, value_count = 0;
   size_t first_plane = 0;  ///< among Film::take_products()
@@ -40,13 +40,18 @@ struct MomentStack {
 /// all values, as they blur everything.
 class MomentLayout {
  public:
+  /// The method must outlive the layout.
   MomentLayout(const DistributionFeatures& features, const ReconstructionMethod& method);
 
   static constexpr size_t base = 0, one = 3;
   bool has(RayEffect effect) const { return effects_[size_t(effect)] > 0; }
   /// First of three values; the effect must be there.
   size_t received(RayEffect effect) const { return effects_[size_t(effect)]; }
-  size_t unblocked(RayEffect effect) const { return effects_[size_t(effect)] + 3; }
+  /// EffectValues::drawn; for bounces `unblocked` itself.
+  size_t drawn(RayEffect effect) const { return effects_[size_t(effect)] + 3; }
+  size_t unblocked(RayEffect effect) const {
+    return effects_[size_t(effect)] + (effect == RayEffect::shadow ? 6 : 3);
+  }
 
   size_t value_count() const { return value_count_; }
   size_t even_factor() const { return value_count_ + 1; }

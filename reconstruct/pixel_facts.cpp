@@ -122,7 +122,7 @@ PixelFacts::PixelFacts(const PixelRect& rect, const DistributionFeatures& featur
   samples.assign(pixels, 0.0f);
 }
 
-void PixelFacts::add(const SampleValues& values, float lens_extent) {
+void PixelFacts::add(const SampleValues& values, const SampleSpreads& spreads) {
   const DistributionSamples& d = values.distribution;
   size_t p = 0;
   for (int y = values.rect.y0; y < values.rect.y1; ++y) {
@@ -136,10 +136,10 @@ void PixelFacts::add(const SampleValues& values, float lens_extent) {
       const SampleSurfaces& s = d.surfaces;
       // f(x, u) = g(x - coc u) with u = extent * y; f(x, t) = g(x - velocity t) with t = (1 + y)/2.
       if (!wedges[size_t(Blur::lens)].empty() && !s.coc[0].empty())
-        surface_wedge(s.coc, -lens_extent, s.surface, first, end)
+        surface_wedge(s.coc, -spreads.lens, s.surface, first, end)
             .store(wedges[size_t(Blur::lens)], at);
       if (!wedges[size_t(Blur::motion)].empty() && !s.velocity[0].empty())
-        surface_wedge(s.velocity, -0.5f, s.surface, first, end)
+        surface_wedge(s.velocity, -spreads.time, s.surface, first, end)
             .store(wedges[size_t(Blur::motion)], at);
       store_normal(s, first, end, *this, at);
       if (!s.surface.empty()) surface[at] = majority(s.surface, first, end);

@@ -40,7 +40,7 @@ class PixelFacts {
 
   /// Reads the samples of a bucket. Thread safe for buckets that share no pixel. Displacements are
   /// at most max_shift; samples whose slope or extent is not known or not finite tell nothing.
-  void add(const SampleValues& values, float lens_extent);
+  void add(const SampleValues& values, const SampleSpreads& spreads);
 
   const PixelRect& rect() const { return rect_; }
   size_t index(int x, int y) const {

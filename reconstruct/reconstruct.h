@@ -97,6 +97,11 @@ struct DistributionFeatures {
   bool any() const { return lens || motion || shadow || bounce; }
 };
 
+/// Half widths of uniform distributions with the standard deviations of samples' u and v, and t.
+struct SampleSpreads {
+  float lens = disc_spread, time = 0.5f;
+};
+
 struct ReconstructionSettings {
   FilmSettings film;
   /// "filter" (the pixel filter alone), or a method of reconstruct/method.h as "name" or
@@ -105,7 +110,7 @@ struct ReconstructionSettings {
   DistributionFeatures features;
   int threads = 1;
   size_t memory_bytes = size_t(8) << 30;  ///< for the moments of the whole frame
-  float lens_extent = 1;                  ///< largest |u| and |v| of samples (LensProfile::extent)
+  SampleSpreads spreads;
 };
 
 /// The whole stage: samples of buckets go in as into Film; with a method for distribution effects
@@ -119,8 +124,9 @@ class Reconstruction {
   virtual Image finish() = 0;
   virtual FilmCounters counters() const = 0;
   /// Samples a pixel that axis-aligned filtering asks for by its own bound
-  /// (reconstruct/sampling_rate.h): the mean over the pixels of the crop, each counted with no fewer
-  /// than it had and no more than most_bound_samples. After finish(); 0 where nothing was filtered.
+  /// (reconstruct/sampling_rate.h): the mean over the pixels of the crop, each counted with no
+  /// fewer than it had and no more than most_bound_samples. After finish(); 0 where nothing was
+  /// filtered.
   virtual double bound_samples() const { return 0; }
   static constexpr double most_bound_samples = 256;
   virtual double filter_s() const { return 0; }  ///< seconds that finish() spent filtering

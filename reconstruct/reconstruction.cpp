@@ -59,8 +59,8 @@ class FilteredReconstruction final : public Reconstruction {
         film_(film_settings()) {}
 
   void add_bucket(int i, int j, SampleValues&& values) override {
-    facts_.add(values, settings_.lens_extent);
-    carry_moments(layout_, *method_, facts_, color_group_, settings_.lens_extent, values);
+    facts_.add(values, settings_.spreads);
+    carry_moments(layout_, facts_, color_group_, settings_.spreads, values);
     values.distribution = {};
     film_.add_bucket(i, j, std::move(values));
   }

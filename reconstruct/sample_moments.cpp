@@ -5,8 +5,10 @@
 namespace tessera {
 namespace {
 
-/// A sample's coordinate along an axis, in [-1, 1]; 0 for one that is not a number.
-float coordinate(float y) { return y == y ? std::clamp(y, -1.0f, 1.0f) : 0.0f; }
+/// A sample's coordinate along an axis; 0 for one that is not a number.
+float coordinate(float y) {
+  return y == y ? std::clamp(y, -farthest_coordinate, farthest_coordinate) : 0.0f;
+}
 
 /// Colour without ray effects, 1, and the parts of each effect.
 void carry_values(const MomentLayout& layout, size_t color_group, const SampleValues& values,
@@ -25,6 +27,9 @@ void carry_values(const MomentLayout& layout, size_t color_group, const SampleVa
                 carried + (layout.received(RayEffect(e)) + c) * samples);
       std::copy(unblocked.begin(), unblocked.end(),
                 carried + (layout.unblocked(RayEffect(e)) + c) * samples);
+      if (RayEffect(e) != RayEffect::shadow) continue;
+      const std::vector<float>& drawn = effect.drawn[c].empty() ? unblocked : effect.drawn[c];
+      std::copy(drawn.begin(), drawn.end(), carried + (layout.drawn(RayEffect(e)) + c) * samples);
     }
   }
 }
@@ -42,12 +47,12 @@ const float* data_or_null(const std::vector<float>& values) {
   return values.empty() ? nullptr : values.data();
 }
 
-Coordinates coordinates_of(Blur blur, const DistributionSamples& d, float lens_extent) {
+Coordinates coordinates_of(Blur blur, const DistributionSamples& d, const SampleSpreads& spreads) {
   switch (blur) {
     case Blur::lens:
-      return {{data_or_null(d.u), data_or_null(d.v)}, 1.0f / lens_extent, 0.0f};
+      return {{data_or_null(d.u), data_or_null(d.v)}, 1.0f / spreads.lens, 0.0f};
     case Blur::motion:
-      return {{data_or_null(d.t), nullptr}, 2.0f, -1.0f};
+      return {{data_or_null(d.t), nullptr}, 1.0f / spreads.time, -0.5f / spreads.time};
     default: {
       const EffectValues& effect = d.effects[size_t(blur)];
       return {{data_or_null(effect.y[0]), data_or_null(effect.y[1])}};
@@ -58,14 +63,13 @@ Coordinates coordinates_of(Blur blur, const DistributionSamples& d, float lens_e
 /// Writes the factors of one stack, pixel by pixel.
 class FactorWriter {
  public:
-  FactorWriter(const MomentStack& stack, const ReconstructionMethod& method,
-               const PixelFacts& facts, float lens_extent, SampleValues& values)
+  FactorWriter(const MomentStack& stack, const PixelFacts& facts, const SampleSpreads& spreads,
+               SampleValues& values)
       : stack_(stack),
-        method_(method),
         facts_(facts),
         samples_(values.x.size()),
-        own_(coordinates_of(stack.blur, values.distribution, lens_extent)),
-        second_(coordinates_of(Blur::lens, values.distribution, lens_extent)),
+        own_(coordinates_of(stack.blur, values.distribution, spreads)),
+        second_(coordinates_of(Blur::lens, values.distribution, spreads)),
         factors_(values.carried.data() + stack.first_factor * samples_) {}
 
   void write(size_t pixel, size_t first, size_t end) {
@@ -83,7 +87,7 @@ class FactorWriter {
       for (size_t a = 0; a < axes; ++a) {
         at[a].y = own_.at(a, s);
         if (second) at[a].second_y = second_.at(a, s);
-        method_.basis(at[a], basis_[a]);
+        stack_.method->basis(at[a], basis_[a]);
       }
       if (motion) basis_[1][0] = 1.0f;
       for (size_t p = 0; p < stack_.pairs.size(); ++p)
@@ -93,7 +97,6 @@ class FactorWriter {
 
  private:
   const MomentStack& stack_;
-  const ReconstructionMethod& method_;
   const PixelFacts& facts_;
   size_t samples_;
   Coordinates own_, second_;
@@ -115,9 +118,8 @@ void for_pixels(const SampleValues& values, Visit visit) {
 
 }  // namespace
 
-void carry_moments(const MomentLayout& layout, const ReconstructionMethod& method,
-                   const PixelFacts& facts, size_t color_group, float lens_extent,
-                   SampleValues& values) {
+void carry_moments(const MomentLayout& layout, const PixelFacts& facts, size_t color_group,
+                   const SampleSpreads& spreads, SampleValues& values) {
   const size_t samples = values.x.size();
   values.carried.assign(layout.carried_count() * samples, 0.0f);
   carry_values(layout, color_group, values, values.carried.data());
@@ -128,7 +130,7 @@ void carry_moments(const MomentLayout& layout, const ReconstructionMethod& metho
     for (size_t s = first; s < end; s += 2) even[s] = 1.0f;
   });
   for (const MomentStack& stack : layout.stacks()) {
-    FactorWriter writer(stack, method, facts, lens_extent, values);
+    FactorWriter writer(stack, facts, spreads, values);
     for_pixels(values, [&](int x, int y, size_t first, size_t end) {
       writer.write(facts.index(x, y), first, end);
     });

@@ -17,9 +17,9 @@ class RunWeights {
  public:
   explicit RunWeights(const StackFilterInput& input)
       : input_(input),
-        reach_(input.method->reach()),
+        reach_(input.stack->method->reach()),
         taps_(2 * reach_ + 1),
-        functions_(size_t(input.method->basis_count())),
+        functions_(size_t(input.stack->method->basis_count())),
         pixel_(functions_ * size_t(taps_)),
         values_(pixel_.size() * tap_run) {}
 
@@ -51,8 +51,8 @@ class RunWeights {
       if (used(at, at, axis)) store(0, reach_, column, 1.0f);
       return;
     }
-    input_.method->weights(wedges.axis(axis, at), facts.samples[at] * input_.samples_scale,
-                           pixel_.data());
+    input_.stack->method->weights(narrowed(wedges.axis(axis, at), input_.wedge_width),
+                                  facts.samples[at], pixel_.data());
     const int position = axis == 0 ? x - rect.x0 : y - rect.y0;
     const int size = axis == 0 ? rect.width() : rect.height();
     const int first = std::max(0, reach_ - position);
@@ -94,8 +94,8 @@ class Band {
   Band(const StackFilterInput& input, int y0, int y1)
       : input_(input),
         weights_(input),
-        reach_(size_t(input.method->reach())),
-        functions_(size_t(input.method->basis_count())),
+        reach_(size_t(input.stack->method->reach())),
+        functions_(size_t(input.stack->method->basis_count())),
         width_(size_t(input.facts->rect().width())),
         stride_((width_ + tap_run - 1) / tap_run * tap_run + 2 * reach_ + tap_run),
         y0_(y0),

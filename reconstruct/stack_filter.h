@@ -22,13 +22,12 @@ struct NoiseCorrelation {
 
 struct StackFilterInput {
   const MomentStack* stack = nullptr;
-  const ReconstructionMethod* method = nullptr;
-  const Planes* planes = nullptr;  ///< as Film::take_products(), over the rectangle of `facts`,
-                                   ///< with tap_run values of room at the end
-  const PixelFacts* facts = nullptr;           ///< smoothed
+  const Planes* planes = nullptr;     ///< as Film::take_products(), over the rectangle of `facts`,
+                                      ///< with tap_run values of room at the end
+  const PixelFacts* facts = nullptr;  ///< smoothed
   const std::vector<float>* shared = nullptr;  ///< 1: others may use the pixel; 0: an outlier
   NoiseCorrelation correlation;
-  float samples_scale = 1;  ///< of the number of samples that the method is told
+  float wedge_width = 1;  ///< share of the way from the least shift to the largest that counts
 };
 
 struct StackFilterOutput {
@@ -36,6 +35,14 @@ struct StackFilterOutput {
   /// The weight of the pixel's own samples and, by correlation, its neighbours', not normalised.
   std::vector<float> own_weight;
 };
+
+/// The wedge from the least shift to `share` of the way to the largest, sign for sign; one that
+/// holds 0 shrinks towards it.
+inline AxisWedge narrowed(const AxisWedge& wedge, float share) {
+  if (wedge.low >= 0) return {wedge.low, wedge.low + share * (wedge.high - wedge.low)};
+  if (wedge.high <= 0) return {wedge.high - share * (wedge.high - wedge.low), wedge.high};
+  return {share * wedge.low, share * wedge.high};
+}
 
 /// Steps along columns, then rows; for motion along the line of motion. Taps do not reach pixels of
 /// another surface or whose normals differ by more than 20 degrees where the coordinate is that of

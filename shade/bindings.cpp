@@ -165,7 +165,8 @@ std::optional<BoundLight> ShaderBindings::bind_light(const Light& light, int ind
 
 void ShaderBindings::bind_extent(BoundLight& light) const {
   const LightDefinition& definition = *light.definition;
-  if (definition.distributed()) light.places = spread_places(place_count(light.parameters));
+  if (definition.distributed())
+    light.places = light.open_places = spread_places(place_count(light.parameters));
   if (!definition.measure) return;
   try {
     light.extent = definition.measure(light.parameters, light.camera_from_light);
@@ -199,8 +200,12 @@ void ShaderBindings::bind_shadow(const Light& light, BoundLight& bound) {
   }
   const bool varies = definition.distributed() || bound.casts_shadows();
   if (!varies || bound.rate == TermRate::cell) return;
-  bound.term = term_lights_.size();
+  bound.term = term_count_++;
   term_lights_.push_back(&bound);
+  if (!definition.illuminate_from) return;
+  bound.mean_term = term_count_++;
+  // Each sample adds a place to what the light brings, cells the rest: these can be many.
+  bound.open_places = spread_places(term_places_scale * place_count(bound.parameters));
 }
 
 void ShaderBindings::use_rays(std::shared_ptr<const RayTracer> rays) {

@@ -45,9 +45,9 @@ class ShaderBindings {
   const Camera& camera() const { return *setup_.camera; }
   Diagnostics& diagnostics() const { return *setup_.diagnostics; }
   FrameTextures& textures() const { return *textures_; }
+  /// Size of SurfaceColors::light_terms.
+  size_t light_term_count() const { return term_count_; }
   /// Lights of the scene whose shadows are looked up at a rate of their own.
-  size_t light_term_count() const { return term_lights_.size(); }
-  /// Those lights, in the order of SurfaceColors::light_terms.
   std::span<const BoundLight* const> term_lights() const { return term_lights_; }
   /// Before the first point is shaded. Area lights start to shine from the surfaces found there.
   /// Throws Error, with the place in the scene file, where one has no area.
@@ -87,6 +87,7 @@ class ShaderBindings {
   std::shared_ptr<const BounceRadiance> bounce_;
   std::vector<std::optional<BoundLight>> lights_;  ///< as Scene::lights; empty: does not shine
   std::vector<const BoundLight*> term_lights_;
+  size_t term_count_ = 0;
   std::vector<std::unique_ptr<SurfaceBinding>> bindings_;  ///< in the order surfaces need them
   std::unordered_map<const Attributes*, const SurfaceBinding*> of_attributes_;  ///< look-up only
 };

@@ -25,12 +25,15 @@ void describe_effect(const ShadeInput& input, const ShadedFragments& shaded,
     return;
   }
   of_samples.resize(samples);
+  const bool drawn = !of_fragments.drawn[0].empty();
+  if (drawn) of_samples.add_drawn();
   for (size_t s = 0; s < samples; ++s) {
     size_t nearest = no_fragment;
     for_layers(input, shaded, fragments_of(*input.fragments, s),
                [&](size_t f, const glm::vec3& through) {
                  add(of_samples.received, s, through * color_at(of_fragments.received, f));
                  add(of_samples.unblocked, s, through * color_at(of_fragments.unblocked, f));
+                 if (drawn) add(of_samples.drawn, s, through * color_at(of_fragments.drawn, f));
                  if (nearest == no_fragment && lit(of_fragments, f)) nearest = f;
                });
     if (nearest == no_fragment) continue;

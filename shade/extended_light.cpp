@@ -35,8 +35,8 @@ Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points) {
   Vec3Array mean(points.count);
   PlaceSamples from;
   std::vector<glm::vec2> xi(size_t(points.count));
-  const float weight = 1.0f / float(light.places.size());
-  for (const glm::vec2& place : light.places) {
+  const float weight = 1.0f / float(light.open_places.size());
+  for (const glm::vec2& place : light.open_places) {
     std::ranges::fill(xi, place);
     from.reset(points.count);
     light.definition->illuminate_from(light, points, xi, from);
@@ -144,12 +144,14 @@ void share_from_extent(const BoundLight& light, const ShadingPoints& given,
   PlaceSamples from;
   from.reset(points.count);
   light.definition->illuminate_from(light, points, xi, from);
-  const Vec3Array mean = mean_received(light, points);
+  const Vec3Array mean =
+      services.mean_received ? *services.mean_received : mean_received(light, points);
   if (services.camera) fill_coordinates(light, points, from, *services.camera, out);
   for (int i = 0; i < points.count; ++i) {
-    out.share.set(i, ratio(received(from.arriving, points.N, i), mean[i]));
-    if (out.share[i] == glm::vec3(0.0f)) from.towards.set(i, glm::vec3(0.0f));  // casts no ray
+    out.open.set(i, ratio(received(from.arriving, points.N, i), mean[i]));
+    if (out.open[i] == glm::vec3(0.0f)) from.towards.set(i, glm::vec3(0.0f));  // casts no ray
   }
+  out.share = out.open;
   if (!light.ray_traced) return;
   PlaceShadows shadows;
   trace_shadows(services.rays, points, from.towards, light.extent.infinite, shadows);

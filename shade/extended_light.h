@@ -19,6 +19,9 @@ std::vector<glm::vec2> spread_places(int count);
 /// The number of places that a light's "samples" asks for: 16 where it is not finite, otherwise
 /// rounded and kept in [1, 4096].
 int place_count(const BoundParameters& parameters);
+/// Where each sample casts a ray of its own, the unblocked light is summed over this many times as
+/// many places.
+inline constexpr int term_places_scale = 16;
 
 /// Finite lights: sets entry i of `out` from the place `at` with unit `normal`, a part of a light
 /// of that area. Cl is radiance * cosine at the light * area / (pi d^2), so that the mean of Cl *

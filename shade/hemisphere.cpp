@@ -99,11 +99,11 @@ void fill_hemisphere_coordinates(const Camera& camera, const Rays& rays, const V
     const glm::vec3 direction = rays.direction[i];
     for (size_t axis = 0; axis < 2; ++axis) {
       const glm::vec3& gradient = axis == 0 ? pixels.x : pixels.y;
-      const float extent = glm::length(gradient);
+      const float extent = disc_spread * glm::length(gradient);
       if (!(extent > 0.0f) || !std::isfinite(extent)) continue;
       const float y = glm::dot(gradient / extent, direction);
       out.extent[axis][size_t(i)] = extent;
-      out.y[axis][size_t(i)] = std::clamp(y, -1.0f, 1.0f);
+      out.y[axis][size_t(i)] = std::clamp(y, -farthest_coordinate, farthest_coordinate);
     }
   }
 }

@@ -117,9 +117,10 @@ void gather_places(const Gathering& gathering, const BoundLight& light) {
   PlaceSamples from;
   PlaceShadows shadows;
   std::vector<glm::vec2> xi(size_t(facing.count));
-  const float weight = 1.0f / float(light.places.size());
   const bool casts = gathering.casts(light) && light.services;
-  for (const glm::vec2& place : light.places) {
+  const std::vector<glm::vec2>& places = casts ? light.places : light.open_places;
+  const float weight = 1.0f / float(places.size());
+  for (const glm::vec2& place : places) {
     std::ranges::fill(xi, place);
     from.reset(facing.count);
     light.definition->illuminate_from(light, facing, xi, from);
@@ -133,7 +134,7 @@ void gather_places(const Gathering& gathering, const BoundLight& light) {
     }
     gathering.add_directed(from.arriving);
   }
-  gathering.counters.light_evaluations += uint64_t(facing.count) * light.places.size();
+  gathering.counters.light_evaluations += uint64_t(facing.count) * places.size();
 }
 
 }  // namespace

@@ -111,11 +111,12 @@ struct LightDefinition {
 /// What share_from() finds, one entry a point.
 struct ShareSamples {
   Vec3Array share;  ///< of what the light adds unblocked; may exceed 1
+  Vec3Array open;   ///< the same if nothing were in the way; counts only for RayEffect::shadow
   std::array<AlignedVector<float>, 2> y, extent;  ///< as in EffectValues
   AlignedVector<float> slope;                     ///< as in EffectValues
 
   void reset(int count) {
-    share.reset(count);
+    share.reset(count), open.reset(count);
     for (auto* pair : {&y, &extent})
       for (auto& axis : *pair) axis.assign(padded(size_t(count)), 0.0f);
     slope.assign(padded(size_t(count)), std::numeric_limits<float>::quiet_NaN());
@@ -129,6 +130,8 @@ struct LightServices {
   const BounceRadiance* bounce = nullptr;  ///< null: what rays meet is black
   ShadeCounters* counters = nullptr;
   FrameTextures* textures = nullptr;  ///< null: lights have no maps
+  /// At the points of this call, the mean over the light's places of Cl cos; null: not known yet.
+  const Vec3Array* mean_received = nullptr;
 };
 
 std::span<const LightDefinition> light_registry();
@@ -145,6 +148,9 @@ struct BoundLight {
   TermRate rate = TermRate::cell;
   /// Which of SurfaceColors::light_terms is this light's; only where the rate is not `cell`.
   std::optional<size_t> term{};
+  /// Which of them is its own diffuse light, the mean over its places: what share_from() relates one
+  /// place to. Only of lights with a term and `illuminate_from`.
+  std::optional<size_t> mean_term{};
   SourceLocation where{};
   /// What the frame offers to its lights, without counters; null: nothing. Outlives the light.
   const LightServices* services = nullptr;
@@ -152,6 +158,8 @@ struct BoundLight {
   LightExtent extent{};               ///< of lights with extent
   /// Where a distributed light is summed over: well spread over [0, 1)^2, the same for all points.
   std::vector<glm::vec2> places{};
+  /// The same where no rays are cast; more of them for lights with a term.
+  std::vector<glm::vec2> open_places{};
 
   /// Whether transmission() has anything to say.
   bool casts_shadows() const { return shadow || ray_traced; }

@@ -129,6 +129,10 @@ struct EffectSum {
   std::vector<float> brightest;  ///< [fragment] of the lights so far
   size_t lights = 0;
 
+  void add_drawn(const glm::vec3& open, const Term& term, uint32_t fragment) {
+    for (size_t c = 0; c < 3; ++c)
+      if (std::isfinite(open[int(c)])) values->drawn[c][fragment] += open[int(c)] * term[c][fragment];
+  }
   void describe(const ShareSamples& shares, const Term& term, uint32_t fragment, size_t k) {
     const float brightness = luminance(term, fragment);
     if (!(brightness > brightest[fragment])) return;
@@ -141,12 +145,17 @@ struct EffectSum {
   }
 };
 
-/// The share that look-up k found; nothing where that is not finite, which is counted.
-glm::vec3 finite_share(const ShareSamples& shares, size_t k, ShadeCounters& counters) {
-  const glm::vec3 share = shares.share[int(k)];
+/// The share; nothing where that is not finite, which is counted.
+glm::vec3 finite_share(const glm::vec3& share, ShadeCounters& counters) {
   if (std::isfinite(share.x) && std::isfinite(share.y) && std::isfinite(share.z)) return share;
   ++counters.nonfinite_dropped;
   return glm::vec3(0.0f);
+}
+
+void gather(const Term& term, std::span<const uint32_t> fragments, Vec3Array& out) {
+  out.reset(int(fragments.size()));
+  for (size_t c = 0; c < 3; ++c)
+    for (size_t k = 0; k < fragments.size(); ++k) out.component(int(c))[k] = term[c][fragments[k]];
 }
 
 /// A light that each sample has a place of its own on.
@@ -159,6 +168,8 @@ void apply_distributed(const TermTarget& to, const BoundLight& light, const Term
   LightServices services = to.bindings.light_services();
   services.counters = &to.counters;
   ShareSamples shares;
+  Vec3Array mean;
+  if (light.mean_term) services.mean_received = &mean;
   std::vector<glm::vec2> xi;
   const auto look_up = [&](std::span<const uint32_t> fragments) {
     const FragmentPoints seen(to.input, fragments, PointTime::of_sample, to.bindings.camera(),
@@ -166,11 +177,13 @@ void apply_distributed(const TermTarget& to, const BoundLight& light, const Term
     xi.clear();
     for (const uint32_t f : fragments)
       xi.push_back(places.of_sample(to.input.fragments->sample[f]));
+    if (light.mean_term) gather(to.shaded.light_terms[*light.mean_term], fragments, mean);
     shares.reset(int(fragments.size()));
     light.definition->share_from(light, seen.points(), xi, services, shares);
   };
   for_batches(look_ups, look_up, [&](uint32_t f, size_t k) {
-    const glm::vec3 share = finite_share(shares, k, to.counters);
+    const glm::vec3 share = finite_share(shares.share[int(k)], to.counters);
+    if (!sum.values->drawn[0].empty()) sum.add_drawn(shares.open[int(k)], term, f);
     for (size_t c = 0; c < 3; ++c) {
       const float received = share[int(c)] * term[c][f];
       to.shaded.Ci[c][f] += received;
@@ -196,6 +209,7 @@ std::array<EffectSum, ray_effect_count> start_effects(const TermTarget& to) {
       return takes_places(*l) && size_t(l->definition->effect) == e;
     });
     sums[e].values->resize(wanted ? fragments : 0);
+    if (wanted && RayEffect(e) == RayEffect::shadow) sums[e].values->add_drawn();
     sums[e].brightest.assign(wanted ? fragments : 0, 0.0f);
   }
   return sums;
@@ -226,9 +240,9 @@ void apply_light_terms(const ShadeInput& input, const ShaderBindings& bindings,
                        ShadedFragments& shaded, ShadeCounters& counters) {
   const TermTarget to{input, bindings, shaded, counters};
   std::array<EffectSum, ray_effect_count> sums = start_effects(to);
-  for (size_t k = 0; k < bindings.light_term_count(); ++k) {
-    const BoundLight& light = *bindings.term_lights()[k];
-    const Term& term = shaded.light_terms.at(k);
+  for (const BoundLight* bound : bindings.term_lights()) {
+    const BoundLight& light = *bound;
+    const Term& term = shaded.light_terms.at(*light.term);
     if (takes_places(light)) {
       apply_distributed(to, light, term, sums[size_t(light.definition->effect)]);
     } else {

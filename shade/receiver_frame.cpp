@@ -49,19 +49,19 @@ EffectCoordinate effect_coordinate(const glm::vec2& pixels, const glm::vec2& rea
     const float y = pixels[axis] / reach[axis];
     if (!std::isfinite(y)) continue;
     coordinate.extent[axis] = reach[axis];
-    coordinate.y[axis] = std::clamp(y, -1.0f, 1.0f);
+    coordinate.y[axis] = std::clamp(y, -farthest_coordinate, farthest_coordinate);
   }
   return coordinate;
 }
 
 glm::vec2 reach_of(const LightExtent& extent, const ReceiverFrame& frame) {
-  if (extent.infinite) return frame.reach_of_unit_disc();
-  glm::vec2 sum(0.0f);
+  if (extent.infinite) return disc_spread * frame.reach_of_unit_disc();
+  glm::vec2 squares(0.0f);
   for (const glm::vec3& half_axis : extent.half_axes) {
-    const glm::vec2 q = glm::abs(frame.pixels(half_axis));
-    sum += extent.round ? q * q : q;
+    const glm::vec2 q = frame.pixels(half_axis);
+    squares += q * q;
   }
-  return extent.round ? glm::sqrt(sum) : sum;
+  return (extent.round ? disc_spread : 1.0f) * glm::sqrt(squares);
 }
 
 }  // namespace tessera

@@ -32,11 +32,12 @@ struct EffectCoordinate {
   glm::vec2 y{0.0f}, extent{0.0f};
 };
 
-/// The coordinate of an offset that `pixels` carries by J, where offsets reach `reach` pixels along
-/// each axis. All zero along an axis where the reach is zero or not finite.
+/// The coordinate of an offset that `pixels` carries by J, where offsets spread over `reach` pixels
+/// along each axis. All zero along an axis where the reach is zero or not finite.
 EffectCoordinate effect_coordinate(const glm::vec2& pixels, const glm::vec2& reach);
 
-/// Pixels along x and y that the offsets of a light from its centre reach.
+/// Pixels along x and y that the offsets of a light from its centre spread over: the half width of
+/// a uniform distribution of the same standard deviation.
 glm::vec2 reach_of(const LightExtent& extent, const ReceiverFrame& frame);
 
 }  // namespace tessera

@@ -49,8 +49,7 @@ struct ShadeInput {
 /// shader failed may be NaN in Ci: its sample then counts for nothing.
 struct ShadedFragments {
   std::array<std::vector<float>, 3> Ci, Oi;
-  /// [term] What each light whose shadows have a rate of their own adds to Ci where nothing shadows
-  /// it (shade/shader.h).
+  /// [term] As SurfaceColors::light_terms (shade/shader.h).
   std::vector<std::array<std::vector<float>, 3>> light_terms;
   RayEffects effects;  ///< the parts of Ci that rays of the samples' own brought
   /// If asked for, a hash of the cell of its grid that lies over its pixel at shutter open: where

@@ -27,7 +27,8 @@ struct SurfaceColors {
   Vec3Array Ci;  ///< colour sent towards the eye, already multiplied by Oi
   Vec3Array Oi;  ///< opacity
   /// [term] What a light whose shadows are looked up at a rate of their own would add to Ci if
-  /// nothing shadowed it. As many as ShaderBindings::light_term_count().
+  /// nothing shadowed it, or its diffuse light alone (BoundLight::term, mean_term). As many as
+  /// ShaderBindings::light_term_count().
   std::vector<Vec3Array> light_terms{};
 };
 
@@ -104,6 +105,7 @@ class ShaderContext {
       const Illumination alone = gather_alone(*light, N, roughness);
       Vec3Array& term = out.light_terms.at(*light->term);
       for (int i = 0; i < count(); ++i) term.set(i, color(alone, i));
+      if (light->mean_term) out.light_terms.at(*light->mean_term) = alone.diffuse;
     }
   }
 

@@ -15,7 +15,9 @@ namespace {
 
 class Wiener : public ReconstructionMethod {
  public:
-  explicit Wiener(int components) : components_(components) {}
+  explicit Wiener(int components) : components_(components) {
+    if (components > 1) for_bounces_ = std::make_unique<Wiener>(1);
+  }
 
   int basis_count() const override { return components_; }
   void basis(const BasisPoint& at, float* out) const override { legendre(at.y, components_, out); }
@@ -23,6 +25,11 @@ class Wiener : public ReconstructionMethod {
   int max_degree() const override { return components_ - 1; }
   int reach() const override { return WienerTable::reach; }
   bool guarded() const override { return true; }
+  /// Light from all around varies slowly over directions, and not as edges do: what the further
+  /// components add there is less than their noise (docs/reconstruction.md).
+  const ReconstructionMethod& for_bounces() const override {
+    return for_bounces_ ? *for_bounces_ : *this;
+  }
 
   void weights(const AxisWedge& wedge, float samples, float* out) const override {
     // Who asks only for the basis or the reach does not wait for the table.
@@ -32,6 +39,7 @@ class Wiener : public ReconstructionMethod {
 
  private:
   int components_;
+  std::unique_ptr<Wiener> for_bounces_;
   mutable std::once_flag once_;
   mutable std::optional<WienerTable> table_;
 };
