@@ -15,7 +15,7 @@ bool all_finite(const glm::vec3& v) {
 }
 
 /// Camera units.
-float reach_of(const BoundLight& light, const LightServices& services) {
+float longest_ray(const BoundLight& light, const LightServices& services) {
   const float world = light.parameters.scalar("maxdistance");
   if (std::isnan(world)) return std::numeric_limits<float>::infinity();
   if (!services.camera) return std::max(world, 0.0f);
@@ -50,7 +50,7 @@ glm::vec3 cosine_direction(const glm::vec3& N, const glm::vec2& xi) {
 Rays hemisphere_rays(const BoundLight& light, const ShadingPoints& points,
                      std::span<const glm::vec2> xi, const LightServices& services) {
   Rays rays(points.count);
-  std::ranges::fill(rays.far, reach_of(light, services));
+  std::ranges::fill(rays.far, longest_ray(light, services));
   for (int i = 0; i < points.count; ++i) {
     rays.origin.set(i, points.P[i]);
     rays.direction.set(i, cosine_direction(points.N[i], xi[size_t(i)]));
@@ -62,10 +62,11 @@ Rays hemisphere_rays(const BoundLight& light, const ShadingPoints& points,
 
 void fill_hemisphere_coordinates(const Camera& camera, const Rays& rays, const Vec3Input& N,
                                  ShareSamples& out) {
+  const LightExtent all_round{.infinite = true};
   for (int i = 0; i < rays.count(); ++i) {
     const ReceiverFrame frame = ReceiverFrame::at(camera, rays.origin[i], N[i]);
     const EffectCoordinate at =
-        effect_coordinate(frame.pixels(rays.direction[i]), frame.reach_of_unit_disc());
+        effect_coordinate(frame.pixels(rays.direction[i]), reach_of(all_round, frame));
     for (size_t axis = 0; axis < 2; ++axis) {
       out.y[axis][size_t(i)] = at.y[int(axis)];
       out.extent[axis][size_t(i)] = at.extent[int(axis)];
