@@ -20,7 +20,7 @@ constexpr int max_extra_samples = 4096;
 constexpr int max_resolution = 1 << 15;
 constexpr int max_bucket_size = 4096;
 constexpr int max_grid_size = 256;
-constexpr int max_threads = 4096;
+constexpr int max_threads = 1024;
 constexpr size_t max_memory_mib = size_t(1) << 24;
 
 /// Accepts "NAME" and "NAME:arguments" of an entry of `registry`; the arguments are checked by
@@ -149,7 +149,7 @@ void add_choice_options(CLI::App& app, Settings& settings) {
       ->type_name("NAME[:XxY]");
   app.add_option("--reconstruct", settings.reconstruct,
                  "how samples become pixels where lens, motion, lights with extent or bounces "
-                 "spread them")
+                 "spread them (wiener where lights or bounces do, otherwise filter)")
       ->check(reconstruction())
       ->type_name("NAME[:COMPONENTS]");
   app.add_option_function<std::string>(
@@ -211,6 +211,7 @@ std::string list_choices() {
          list_registry("Shading modes", shading_mode_registry()) +
          list_registry("Filters", pixel_filter_registry()) +
          list_registry("Reconstruction", reconstruction_method_registry()) +
+         fmt::format("  {:<14} {}\n", "filter", "the pixel filter alone") +
          list_registry("Channels (--aov)", aov_registry()) +
          list_registry("Heat maps (--heatmap)", heatmap_registry());
 }

@@ -32,6 +32,12 @@ std::vector<std::string> shadow_search_path(const Scene& scene) {
   return folders;
 }
 
+/// Whether rays bring the light, rather than take away from it: without them there would be none,
+/// so it has no shadows to switch off.
+bool is_brought_by_rays(const LightDefinition& definition) {
+  return definition.hemisphere && !definition.ambient;
+}
+
 /// Whether some surface belongs to the area light with that index.
 bool is_part_of_light(const Scene& scene, int light) {
   return std::ranges::any_of(scene.surfaces, [&](const Surface& surface) {
@@ -191,14 +197,15 @@ void ShaderBindings::bind_shadow(const Light& light, BoundLight& bound) {
   if (!definition.transmission && !definition.distributed()) return;
   bound.rate = rate_of(light.shader, bound);
   if (definition.distributed()) {
-    bound.ray_traced = light.shadow != "off";
+    bound.ray_traced = light.shadow != "off" || is_brought_by_rays(definition);
   } else if (const std::string& map = bound.parameters.string("shadowname"); !map.empty()) {
     bound.ray_traced = map == ray_traced_name;
     if (!bound.ray_traced) bound.shadow = &shadows_.source(map, light.shader.where);
   } else {
     bound.ray_traced = light.shadow == "on";
   }
-  const bool varies = definition.distributed() || bound.casts_shadows();
+  // Light from an extent varies with the place on it even if nothing is in the way.
+  const bool varies = bound.casts_shadows() || definition.illuminate_from;
   if (!varies || bound.rate == TermRate::cell) return;
   bound.term = term_count_++;
   term_lights_.push_back(&bound);
@@ -219,9 +226,13 @@ void ShaderBindings::use_rays(std::shared_ptr<const RayTracer> rays) {
 }
 
 bool ShaderBindings::wants_rays() const {
-  return std::ranges::any_of(lights_, [](const std::optional<BoundLight>& light) {
-    return light && (light->ray_traced || light->definition->distributed());
-  });
+  // Area lights need them to know where their surfaces are.
+  const auto wants = [](const std::optional<BoundLight>& light, const Light& of_scene) {
+    return light && (light->ray_traced || of_scene.area);
+  };
+  for (size_t i = 0; i < lights_.size(); ++i)
+    if (wants(lights_[i], setup_.scene->lights[i])) return true;
+  return false;
 }
 
 bool ShaderBindings::has_effect(RayEffect effect) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shade/hemisphere.h"
 #include "shade/normal_spread.h"
 #include "shade/ray_shadows.h"
 
@@ -70,16 +71,9 @@ void cast_hemisphere_shadows(const Gathering& gathering, const BoundLight& light
                              const ShadingPoints& facing, Vec3Array& Cl) {
   LightServices services = *light.services;
   services.counters = &gathering.counters;
-  Vec3Array mean(facing.count);
-  std::vector<glm::vec2> xi(size_t(facing.count));
-  ShareSamples from;
-  for (const glm::vec2& place : light.places) {
-    std::ranges::fill(xi, place);
-    light.definition->share_from(light, facing, xi, services, from);
-    for (int i = 0; i < facing.count; ++i) mean.add(i, from.share[i]);
-  }
-  const float weight = 1.0f / float(light.places.size());
-  for (int i = 0; i < facing.count; ++i) Cl.set(i, weight * mean[i] * Cl[i]);
+  Vec3Array share;
+  mean_share(light, facing, light.places, services, share);
+  for (int i = 0; i < facing.count; ++i) Cl.set(i, share[i] * Cl[i]);
 }
 
 /// A light without extent, or one from everywhere over the surface.

@@ -10,15 +10,16 @@ void share_from(const BoundLight& light, const ShadingPoints& points, std::span<
                 const LightServices& services, ShareSamples& out) {
   out.reset(points.count);
   const Rays rays = hemisphere_rays(light, points, xi, services);
+  const RayTracer* tracer = light.ray_traced ? services.rays : nullptr;
   RayShadows shadows;
-  if (services.rays) {
-    services.rays->shadow(rays, shadows);
+  if (tracer) {
+    tracer->shadow(rays, shadows);
     services.counters->rays += uint64_t(rays.count());
   }
   for (int i = 0; i < points.count; ++i) {
     const size_t k = size_t(i);
-    out.share.set(i, glm::vec3(services.rays ? shadows.share[k] : 1.0f));
-    if (services.rays && std::isfinite(shadows.distance[k])) out.slope[k] = shadows.distance[k];
+    out.share.set(i, glm::vec3(tracer ? shadows.share[k] : 1.0f));
+    if (tracer && std::isfinite(shadows.distance[k])) out.slope[k] = shadows.distance[k];
   }
   if (services.camera) fill_hemisphere_coordinates(*services.camera, rays, points.N, out);
 }

@@ -126,6 +126,13 @@ TEST_CASE("what is wrong with a command line is said, with exit code 2") {
       {{"render", "s.rib", "--dicing-rate", "fine"}, "--dicing-rate"},
       {{"render", "s.rib", "--motion-factor", "-1"}, "--motion-factor"},
       {{"render", "s.rib", "--focus-factor", "nan"}, "--focus-factor"},
+      {{"render", "s.rib", "--ray-dicing-rate", "0"}, "--ray-dicing-rate"},
+      {{"render", "s.rib", "--ray-dicing-rate", "nan"}, "'nan': expected a number from"},
+      {{"render", "s.rib", "--extra-samples", "-1"}, "--extra-samples"},
+      {{"render", "s.rib", "--extra-samples", "5000"}, "--extra-samples"},
+      {{"render", "s.rib", "--reconstruct", "x"}, "no reconstruction 'x'; there is aaf"},
+      {{"render", "s.rib", "--reconstruct", ""}, "there is"},
+      {{"render", "s.rib", "--reconstruct", "filter:3"}, "there is"},
       {{"render", "s.rib", "--memory", "0"}, "--memory"},
       {{"render", "s.rib", "--frames", "3-1"}, "A <= B"},
       {{"render", "s.####.rib", "-o", "x.exr"}, "--frames"},
@@ -146,14 +153,67 @@ TEST_CASE("help names every choice") {
   const TemporaryFolder folder;
   const ProgramResult result = run_tessera({"render", "--help"}, folder);
   CHECK(result.exit_code == 0);
-  for (const char* word : {"--spp",         "--shading-rate",  "--crop",          "--threads",
-                           "--hider",       "--shading",       "--seed",          "--memory",
-                           "--stats",       "--verbose",       "--skip-existing", "bbox",
-                           "auto",          "shear",           "reyes",           "gaussian",
-                           "motion",        "--heatmap",       "interleave",      "accumulate",
-                           "--dicing-rate", "--motion-factor", "--focus-factor"}) {
+  for (const char* word : {"--spp",
+                           "--shading-rate",
+                           "--crop",
+                           "--threads",
+                           "--hider",
+                           "--shading",
+                           "--seed",
+                           "--memory",
+                           "--stats",
+                           "--verbose",
+                           "--skip-existing",
+                           "bbox",
+                           "auto",
+                           "shear",
+                           "reyes",
+                           "gaussian",
+                           "motion",
+                           "--heatmap",
+                           "interleave",
+                           "accumulate",
+                           "--dicing-rate",
+                           "--motion-factor",
+                           "--focus-factor",
+                           "--reconstruct",
+                           "wiener",
+                           "--extra-samples",
+                           "--ray-dicing-rate"}) {
     CHECK_THAT(result.out, Contains(word));
   }
+}
+
+TEST_CASE("options of rays and of filters for distribution effects are in force") {
+  const TemporaryFolder folder;
+  folder.write("s.rib", rays_scene());
+  const auto statistics_of = [&](std::vector<std::string> options) {
+    std::vector<std::string> arguments{"render", "s.rib", "--stats", "s.json", "--quiet"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = run_tessera(arguments, folder);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+    return nlohmann::json::parse(read_text(folder / "s.json"));
+  };
+  const auto defaults = statistics_of({});
+  CHECK(defaults["plan"]["reconstruct"] == "wiener");
+  CHECK(defaults["plan"]["extra_samples"] == "100");
+  CHECK(defaults["counts"]["extra_samples"] > 0);
+  CHECK_FALSE(defaults["options"].contains("ray_dicing_rate"));
+
+  const auto filtered =
+      statistics_of({"--reconstruct", "maaf:3", "--extra-samples", "0", "--ray-dicing-rate", "2"});
+  CHECK(filtered["plan"]["reconstruct"] == "maaf:3");
+  CHECK(filtered["plan"]["extra_samples"] == "0");
+  CHECK(filtered["counts"]["extra_samples"] == 0);
+  CHECK(filtered["options"]["ray_dicing_rate"] == "2");
+  CHECK(filtered["memory_bytes"]["ray_bytes"] > defaults["memory_bytes"]["ray_bytes"]);
+
+  // Nobody filters: more samples would be of no use.
+  const auto bare = statistics_of({"--reconstruct", "filter", "--extra-samples", "50"});
+  CHECK(bare["plan"]["reconstruct"] == "filter");
+  CHECK(bare["plan"]["extra_samples"] == "0");
+  CHECK(bare["counts"]["extra_samples"] == 0);
 }
 
 TEST_CASE("a bad scene names its line, fails and leaves no file") {

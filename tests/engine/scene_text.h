@@ -63,4 +63,23 @@ inline std::string everything_scene() {
          "WorldEnd\n";
 }
 
+// A lens that is focused behind a ball and on the floor, under a light with extent whose light
+// bounces.
+inline std::string rays_scene() {
+  return "Format 32 24 1\n"
+         "PixelSamples 2 2\n"
+         "Projection \"perspective\" \"fov\" [45]\n"
+         "DepthOfField 1 0.5 5\n"
+         "Translate 0 -0.5 4\n"
+         "WorldBegin\n"
+         "TransformBegin\nTranslate 0 4 0\nRotate 90 1 0 0\n"
+         "LightSource \"rectanglelight\" 1 \"float intensity\" [9]\n"
+         "TransformEnd\n"
+         "LightSource \"indirectlight\" 2\n"
+         "Surface \"matte\"\n"
+         "Sphere 1 -1 1 360\n"
+         "Polygon \"P\" [-4 -1 -3  -4 -1 4  4 -1 4  4 -1 -3]\n"
+         "WorldEnd\n";
+}
+
 }  // namespace tessera

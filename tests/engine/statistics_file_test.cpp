@@ -39,4 +39,36 @@ TEST_CASE("statistics are complete and consistent") {
   CHECK(json["plan"]["textures"] == "no");
   CHECK(json["plan"]["samples"] == "free");
   CHECK(json["warnings"].size() == 1);
+  // Nobody asks for rays, nobody filters.
+  for (const char* name : {"rays", "bounce_points_shaded", "extra_samples"}) {
+    INFO(name);
+    CHECK(json["counts"][name] == 0);
+  }
+  CHECK(json["memory_bytes"]["ray_bytes"] == 0);
+  CHECK(json["times_s"]["filter_s"] == 0.0);
+  CHECK_FALSE(json["ratios"].contains("aaf_bound_spp"));
+}
+
+TEST_CASE("statistics tell what rays, more samples and filters cost") {
+  const TemporaryFolder folder;
+  folder.write("s.rib", rays_scene());
+  REQUIRE(
+      run_tessera({"render", "s.rib", "-o", "out.exr", "--stats", "s.json"}, folder).exit_code ==
+      0);
+  const auto json = nlohmann::json::parse(read_text(folder / "s.json"));
+  const auto& counts = json["counts"];
+  for (const char* name : {"rays", "bounce_points_shaded", "extra_samples"}) {
+    INFO(name);
+    CHECK(counts[name].get<long>() > 0);
+  }
+  // What all pixels have and what some have besides, for which whole rectangles are looked at.
+  CHECK(counts["samples"].get<long>() >= 32 * 24 * 4 + counts["extra_samples"].get<long>());
+  CHECK(counts["extra_samples"].get<long>() <= 32 * 24 * 100);
+  CHECK(json["memory_bytes"]["ray_bytes"].get<long>() > 1000);
+  CHECK(json["times_s"]["filter_s"].get<double>() > 0);
+  CHECK(json["ratios"]["aaf_bound_spp"].get<double>() >= 4);
+  for (const char* need : {"lens", "area_lights", "bounce", "ray_tracing"}) {
+    INFO(need);
+    CHECK(json["plan"][need] == "yes");
+  }
 }

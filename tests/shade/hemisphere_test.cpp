@@ -22,7 +22,8 @@ BoundLight bound(const char* name, std::vector<Parameter> parameters, Diagnostic
   REQUIRE(definition);
   return {.definition = definition,
           .parameters = BoundParameters(definition->parameters, call(name, std::move(parameters)),
-                                        {}, name, diagnostics)};
+                                        {}, name, diagnostics),
+          .ray_traced = true};
 }
 
 /// The cosine-weighted share of directions over a point that an upright rectangle covers: it stands
@@ -127,6 +128,12 @@ TEST_CASE("occlusion ends at maxdistance and is thinned by transparency") {
   CHECK(mean_within(-1.0f) == 1.0);
   // Met within r where cos > 1 / r; with density cos / pi that is a share of 1 - 1 / r^2.
   CHECK(mean_within(2.0f) == Approx(1.0 - 0.5 * (1.0 - 0.25)).margin(0.003));
+  // Without shadows all of it is open, and no ray is cast.
+  const uint64_t cast = counters.rays;
+  BoundLight open = bound("occlusionlight", {}, test.diagnostics);
+  open.ray_traced = false;
+  CHECK(shares_at(open, at, {{0.5f, 0.5f}}, services).share[0] == glm::vec3(1.0f));
+  CHECK(counters.rays == cast);
 }
 
 TEST_CASE("inside a ball the indirect light of a point light is the same wherever both are") {

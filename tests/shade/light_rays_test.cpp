@@ -69,6 +69,24 @@ TEST_CASE("a map's name wins over the attribute, and off is off", "[light]") {
   const LitScene distributed(call("rectanglelight"), "off");
   CHECK_FALSE(distributed.light().ray_traced);
   CHECK(distributed.light().term == 0u);
+  CHECK_FALSE(wants_rays(*distributed.bindings));
+}
+
+TEST_CASE("an occlusion light without shadows is ambient, and bounces are no shadows", "[light]") {
+  for (const char* rate : {"cell", "sample"}) {
+    CAPTURE(rate);
+    LitScene open(call("occlusionlight", {text("shadowrate", rate)}), "off");
+    CHECK_FALSE(wants_rays(*open.bindings));
+    CHECK_FALSE(has_effect(*open.bindings, RayEffect::bounce));
+    const auto blocker = left_half();
+    open.bindings->use_rays(blocker);
+    CHECK(run(open, 1).Ci[0] == glm::vec3(1.0f));
+    CHECK(blocker->traced == 0);
+    const LitScene bounced(call("indirectlight", {text("shadowrate", rate)}), "off");
+    CHECK(wants_rays(*bounced.bindings));
+    CHECK(has_effect(*bounced.bindings, RayEffect::bounce) == (rate == std::string("sample")));
+    CHECK(run(bounced, 1).Ci[0] == glm::vec3(0.0f));  // no tracer: nothing sends any light on
+  }
 }
 
 TEST_CASE("lights with extent have the effect of shadows unless at cells", "[light]") {
