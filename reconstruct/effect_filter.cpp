@@ -25,6 +25,13 @@ struct SurfaceFilter {
   const StackFilterOutput& at(bool along_motion) const { return along_motion ? motion : lens; }
 };
 
+/// Filtered sums of what arrived of an effect: three values from `first` on, then three of what
+/// would have unblocked.
+struct RatioSource {
+  const StackFilterOutput* output;
+  size_t first;
+};
+
 class EffectFilter {
  public:
   explicit EffectFilter(const EffectFilterInput& input)
@@ -67,8 +74,8 @@ class EffectFilter {
   void describe_plain(size_t value, Component& component) const;
   Planes filter_received(RayEffect effect) const;
   void describe_ratio(RayEffect effect, Component& out) const;
-  template <class From>
-  void add_ratio(RayEffect effect, size_t first, const From& from, Component& component) const;
+  template <class Source>
+  void add_ratio(RayEffect effect, const Source& source, Component& component) const;
   std::vector<float> shared_ratios(RayEffect effect, const Component& ratio) const;
   Planes blend(const Component& component, const std::vector<float>* shared) const;
 
@@ -211,11 +218,9 @@ void EffectFilter::describe_ratio(RayEffect effect, Component& out) const {
   });
 }
 
-/// The ratio of filtered sums: values[first ..] what arrived, three on what would. `from(p)` gives
-/// the filter's output for a pixel, null where it has none.
-template <class From>
-void EffectFilter::add_ratio(RayEffect effect, size_t first, const From& from,
-                             Component& component) const {
+/// The ratio of filtered sums that `source(p)` names for each pixel.
+template <class Source>
+void EffectFilter::add_ratio(RayEffect effect, const Source& source, Component& component) const {
   const size_t drawn = layout_.drawn(effect);
   // No light is brighter than without what is in its way; what bounces may be as bright as it
   // likes.
@@ -223,8 +228,7 @@ void EffectFilter::add_ratio(RayEffect effect, size_t first, const From& from,
   Candidate& candidate = component.candidates.emplace_back(Candidate{component.plain, {}});
   candidate.own_weight.assign(pixels_, 1.0f);
   for_pixels([&](size_t p) {
-    const StackFilterOutput* filtered = from(p);
-    if (!filtered) return;
+    const auto [filtered, first] = source(p);
     float own = 0;
     for (size_t c = 0; c < 3; ++c) {
       const float plain = component.plain[c][p], divisor = mean(drawn + c)[p];
@@ -239,48 +243,42 @@ void EffectFilter::add_ratio(RayEffect effect, size_t first, const From& from,
   });
 }
 
-/// A ray effect's light: along its own coordinate or, where lens or motion blur more, along theirs.
+/// A ray effect's light: what would arrive, through lens and motion, times the ratio that does.
+/// Guarded methods choose between its own coordinate and those of lens and motion; others take the
+/// one that blurs more for sure.
 Planes EffectFilter::filter_received(RayEffect effect) const {
   const Blur blur = Blur(effect);
   const size_t received = layout_.received(effect), drawn = layout_.drawn(effect);
   Component ratio(width_, height_);
   describe_ratio(effect, ratio);
   const std::vector<float> shared = shared_ratios(effect, ratio);
-  const auto by_surface = [&](size_t p) { return surface_shift_[p] > wedges(blur).sure_shift(p); };
+  const auto surface = [&](const SurfaceFilter& filter, size_t p) {
+    return RatioSource{&filter.at(along_motion_[p]), received};
+  };
   if (in_.method->guarded()) {
     for (const float width : candidate_widths) {
       const StackFilterOutput own = filter_stack(stack_input(blur, &shared, width));
       add_ratio(
-          effect, 0, [&](size_t) { return &own; }, ratio);
+          effect,
+          [&](size_t) {
+            return RatioSource{&own, 0};
+          },
+          ratio);
     }
     for (const SurfaceFilter& filter : surfaces_)
       add_ratio(
-          effect, received, [&](size_t p) { return &filter.at(along_motion_[p]); }, ratio);
+          effect, [&](size_t p) { return surface(filter, p); }, ratio);
   } else {
     const StackFilterOutput own = filter_stack(stack_input(blur, &shared, 1.0f));
-    add_ratio(
-        effect, 0, [&](size_t p) { return by_surface(p) ? nullptr : &own; }, ratio);
-    if (!surfaces_.empty()) {
-      Candidate& chosen = ratio.candidates.front();
-      Component lens = ratio;
-      lens.candidates.clear();
-      add_ratio(
-          effect, received,
-          [&](size_t p) {
-            return by_surface(p) ? &surfaces_.front().at(along_motion_[p]) : nullptr;
-          },
-          lens);
-      for_pixels([&](size_t p) {
-        if (!by_surface(p)) return;
-        for (size_t c = 0; c < 3; ++c)
-          chosen.filtered[c][p] = lens.candidates.front().filtered[c][p];
-      });
-    }
+    const auto strongest = [&](size_t p) {
+      return surface_shift_[p] > wedges(blur).sure_shift(p) ? surface(surfaces_.front(), p)
+                                                            : RatioSource{&own, 0};
+    };
+    add_ratio(effect, strongest, ratio);
   }
   const Planes own_ratio = blend(ratio, &shared);
   const Planes light = through_lens(layout_.unblocked(effect));
-  const Planes plain = through_lens(received);
-  Planes out = plain;
+  Planes out{mean(received), mean(received + 1), mean(received + 2)};
   for_pixels([&](size_t p) {
     for (size_t c = 0; c < 3; ++c)
       if (std::abs(mean(drawn + c)[p]) > smallest_divisor)

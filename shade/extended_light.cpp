@@ -13,6 +13,8 @@ namespace tessera {
 namespace {
 
 constexpr float steepest_slope = 1e6f;
+/// Most that a place's cosine counts for against the mean cosine over the light.
+constexpr float largest_cosine_ratio = 16.0f;
 
 /// Normals turned towards the eye, as surface shaders turn them.
 Vec3Array facing_normals(const ShadingPoints& points, const Camera* camera) {
@@ -55,6 +57,43 @@ glm::vec3 ratio(const glm::vec3& part, const glm::vec3& whole) {
     if (std::isfinite(quotient)) result[c] = quotient;
   }
   return result;
+}
+
+/// The mean of Cl over the light's places at each point.
+Vec3Array mean_arriving(const BoundLight& light, const ShadingPoints& points) {
+  Vec3Array mean(points.count);
+  PlaceSamples from;
+  std::vector<glm::vec2> xi(size_t(points.count));
+  const float weight = 1.0f / float(light.places.size());
+  for (const glm::vec2& place : light.places) {
+    std::ranges::fill(xi, place);
+    from.reset(points.count);
+    light.definition->illuminate_from(light, points, xi, from);
+    for (int i = 0; i < points.count; ++i) mean.add(i, weight * from.arriving.Cl[i]);
+  }
+  return mean;
+}
+
+/// Where nearly all of the light is below the surface the mean of Cl cos is next to nothing, and a
+/// place that still shows counts for hundreds of it. What the share multiplies may be more than
+/// that mean: highlights at grazing angles, or a cell whose other points see more. The product
+/// would be a bright dot. So a share above 16 counts for no more than 16 times what the place sends
+/// against what all send, whatever their cosines; of an even light that takes away at most 1 / (4 *
+/// 16^2) of what arrives where all of it shows.
+void bound_shares(const BoundLight& light, const ShadingPoints& points, const LightSamples& from,
+                  Vec3Array& share) {
+  const auto is_large = [&](int i) {
+    const glm::vec3 s = share[i];
+    return std::max({s.x, s.y, s.z}) > largest_cosine_ratio;
+  };
+  int first = 0;
+  while (first < points.count && !is_large(first)) ++first;
+  if (first == points.count) return;  // as good as always
+  const Vec3Array mean = mean_arriving(light, points);
+  for (int i = first; i < points.count; ++i) {
+    const glm::vec3 sent = glm::max(glm::vec3(1.0f), ratio(from.Cl[i], mean[i]));
+    share.set(i, glm::min(share[i], largest_cosine_ratio * sent));
+  }
 }
 
 float slope_of(float blocker, bool infinite) {
@@ -151,6 +190,7 @@ void share_from_extent(const BoundLight& light, const ShadingPoints& given,
     out.open.set(i, ratio(received(from.arriving, points.N, i), mean[i]));
     if (out.open[i] == glm::vec3(0.0f)) from.towards.set(i, glm::vec3(0.0f));  // casts no ray
   }
+  bound_shares(light, points, from.arriving, out.open);
   out.share = out.open;
   if (!light.ray_traced) return;
   PlaceShadows shadows;

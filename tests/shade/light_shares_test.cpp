@@ -88,6 +88,47 @@ TEST_CASE("the mean share times the unblocked light is the shadowed light", "[li
   }
 }
 
+TEST_CASE("a light that only just shows makes no bright dots and loses next to nothing",
+          "[light]") {
+  // Before a point at depth 5 the light spans x from 2 to 4 at depth 1; the surface turns until
+  // only the share `shown` of that is above it.
+  const glm::vec3 P(0, 0, 5);
+  const glm::dmat4 place = glm::translate(identity, glm::dvec3(3, 0, 1));
+  const auto normal = [](double shown) {
+    return glm::normalize(glm::dvec3(-1.0, 0.0, -0.5 * (1.0 + shown)));
+  };
+  const auto exact = [&](double shown) {
+    const int n = 200;
+    double sum = 0.0;
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const glm::dvec3 to(2.0 + 2.0 * (i + 0.5) / n, 2.0 * (j + 0.5) / n - 1.0, -4.0);
+        const double d2 = glm::dot(to, to);
+        sum += 4.0 * std::max(0.0, glm::dot(normal(shown), to)) / (d2 * d2);
+      }
+    }
+    return sum * 4.0 / (double(n) * n) / M_PI;
+  };
+  for (const int samples : {16, 64}) {
+    const LitScene scene(
+        call("rectanglelight",
+             {number("width", 2), number("height", 2), number("samples", float(samples))}, place));
+    BoundLight light = scene.light();
+    light.places = light.open_places;  // those that shares relate to
+    for (const double shown : {0.001, 0.008, 0.0313, 0.05, 0.1, 0.2, 0.5, 1.0}) {
+      CAPTURE(samples, shown);
+      const glm::vec3 N(normal(shown));
+      const ShareSamples found = shares(scene, P, N, spread_places(4096));
+      float most = 0.0f;
+      for (int i = 0; i < found.share.count(); ++i) most = std::max(most, found.share[i].x);
+      CHECK(most < 16.0f * 1.6f);  // the nearest part of the light sends 1.6 times the mean
+      const double received = mean_share(found) * quadrature(light, P, N).x;
+      CHECK(received < 1.01 * exact(shown) + 1e-6);
+      CHECK(received > 0.99 * exact(shown) - exact(1.0) / (samples == 16 ? 256 : 1024));
+    }
+  }
+}
+
 TEST_CASE("the share of a ball under a half-space is the lit part of its disc", "[light]") {
   // Far away the ball is a disc; a blocker edge through its centre leaves one half.
   LitScene scene(call("spherelight", {number("radius", 0.1f)}));
