@@ -8,6 +8,7 @@
 
 #include "reconstruct/guard.h"
 #include "reconstruct/outliers.h"
+#include "reconstruct/place_gain.h"
 
 namespace tessera {
 namespace {
@@ -76,6 +77,7 @@ class EffectFilter {
   void describe_ratio(RayEffect effect, Component& out) const;
   template <class Source>
   void add_ratio(RayEffect effect, const Source& source, Component& component) const;
+  Planes gain_of(RayEffect effect) const;
   std::vector<float> shared_ratios(RayEffect effect, const Component& ratio) const;
   Planes blend(const Component& component, const std::vector<float>* shared) const;
 
@@ -243,6 +245,15 @@ void EffectFilter::add_ratio(RayEffect effect, const Source& source, Component& 
   });
 }
 
+Planes EffectFilter::gain_of(RayEffect effect) const {
+  std::array<std::array<const float*, 3>, 2> sums, even_sums;
+  const size_t first[2] = {layout_.drawn(effect), layout_.unblocked(effect)};
+  for (size_t k = 0; k < 2; ++k)
+    for (size_t c = 0; c < 3; ++c)
+      sums[k][c] = mean(first[k] + c).data(), even_sums[k][c] = even(first[k] + c).data();
+  return place_gain(sums, even_sums, *in_.facts, in_.correlation);
+}
+
 /// A ray effect's light: what would arrive, through lens and motion, times the ratio that does.
 /// Guarded methods choose between its own coordinate and those of lens and motion; others take the
 /// one that blurs more for sure.
@@ -278,11 +289,12 @@ Planes EffectFilter::filter_received(RayEffect effect) const {
   }
   const Planes own_ratio = blend(ratio, &shared);
   const Planes light = through_lens(layout_.unblocked(effect));
+  const Planes gain = effect == RayEffect::shadow ? gain_of(effect) : Planes();
   Planes out{mean(received), mean(received + 1), mean(received + 2)};
   for_pixels([&](size_t p) {
     for (size_t c = 0; c < 3; ++c)
       if (std::abs(mean(drawn + c)[p]) > smallest_divisor)
-        out[c][p] = light[c][p] * own_ratio[c][p];
+        out[c][p] = light[c][p] * own_ratio[c][p] * (gain.empty() ? 1.0f : gain[c][p]);
   });
   return out;
 }
