@@ -1,6 +1,7 @@
 /// The extremes table: where formulas break, what the sheared hider sees there, and what long
 /// double rays and the brute-force hider see.
 
+#include "bench/extremes_frames.h"
 #include "bench/extremes_reconstruct.h"
 #include "bench/harness/benchmark.h"
 #include "tests/hide/extreme_tally.h"
@@ -21,13 +22,14 @@ void run(BenchmarkContext& context) {
                                    {"worst_depth_error", t.worst_depth_error}});
   }
   add_reconstruction_extremes(context);
+  add_extreme_frames(context);
 }
 
 }  // namespace
 
 BenchmarkDefinition benchmark_extremes() {
   return {"extremes",
-          "hider shear at the extremes against long double rays and against brute force; expected: "
+          "hider shear at the extremes against long double rays and against brute force (expected: "
           "no disagreements, no differences",
           run};
 }
