@@ -30,7 +30,8 @@ void run(BenchmarkContext& context) {
 BenchmarkDefinition benchmark_extremes() {
   return {"extremes",
           "hider shear at the extremes against long double rays and against brute force (expected: "
-          "no disagreements, no differences",
+          "no disagreements, no differences), the weights of methods of reconstruction, and whole "
+          "frames with lights of extent against many samples",
           run};
 }
 

@@ -29,7 +29,7 @@ struct Scale {
 
 Scale scale_of(const BenchmarkContext& context) {
   if (context.quick) return {160, 90, 128, {4, 16, 32, 64}, {4, 16, 64}, 0, 0};
-  return {400, 225, 384, {4, 16, 32, 64, 128, 256}, {4, 16, 64, 256}, 1, 32};
+  return {320, 180, 256, {4, 16, 32, 64, 128, 256}, {4, 16, 64, 256}, 1, 32};
 }
 
 constexpr int row_spp[] = {16, 32};
