@@ -130,6 +130,27 @@ TEST_CASE("filters come nearer to the converged image and keep its energy", "[di
   }
 }
 
+TEST_CASE("as samples grow the default filter's error falls, and stays below the unfiltered one",
+          "[distribution]") {
+  SceneText small;
+  small.width = 32, small.height = 24;
+  const std::string text = distribution_scene(small);
+  const auto render_with = [&](Settings settings, int samples, uint32_t seed) {
+    settings.samples_per_pixel = samples, settings.seed = seed;
+    return render_text(text, settings);
+  };
+  const Image reference = render_with(with_method("filter"), 1024, 7);
+  double before = 1e30;
+  for (const int samples : {4, 16, 64}) {
+    const double plain = relative_error(render_with(with_method("filter"), samples, 1), reference);
+    const double filtered = relative_error(render_with({}, samples, 1), reference);
+    CAPTURE(samples, plain, filtered);
+    CHECK(filtered < 0.8 * plain);
+    CHECK(filtered < 0.6 * before);
+    before = filtered;
+  }
+}
+
 TEST_CASE("threads, buckets and crops do not show in a filtered image", "[distribution]") {
   SceneText all;
   all.lens = all.motion = true, all.side = 2;

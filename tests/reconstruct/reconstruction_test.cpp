@@ -183,6 +183,71 @@ TEST_CASE("Nothing changes where nothing is noisy", "[reconstruction]") {
     REQUIRE(filtered.channels[0].values[p] == Approx(plain.channels[0].values[p]).epsilon(1e-6));
 }
 
+namespace {
+
+/// A surface of checks wholly lit by a light some of whose places shine ninety times brighter than
+/// the others.
+DistributionFrame uneven_light(bool has_drawn) {
+  DistributionFrame frame(48, 36);
+  frame.settings.features.shadow = true;
+  frame.has_drawn = has_drawn;
+  frame.shade = [](SceneSample& s) {
+    SceneSample::Ray& ray = s.rays[0];
+    const float place = ray.y[0] > 0.8f ? 9.0f : 0.1f;  // a tenth of them: 0.99 in the mean
+    set(ray.unblocked, checks(s.x, s.y));
+    set(ray.drawn, place * checks(s.x, s.y)), set(ray.received, place * checks(s.x, s.y));
+    ray.extent[0] = ray.extent[1] = 8;
+    ray.slope = s.x < 24 ? std::numeric_limits<float>::quiet_NaN() : 0.5f;
+  };
+  return frame;
+}
+
+/// Largest difference of channel 0 from the checks.
+double farthest_from_checks(const Image& image) {
+  double most = 0;
+  for (int y = image.data_window.y0; y < image.data_window.y1; ++y)
+    for (int x = image.data_window.x0; x < image.data_window.x1; ++x)
+      most = std::max(most, std::abs(double(image.channels[0].values[image.index(x, y)]) -
+                                     double(checks(float(x), float(y)))));
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("Where nothing is in the way, uneven places of a light make no noise",
+          "[reconstruction]") {
+  const bool guarded = GENERATE(false, true);
+  const DistributionFrame frame = uneven_light(true);
+  CHECK(farthest_from_checks(frame.render(nullptr)) > 1);
+  // Exactly unblocked, but for the received light that is taken off the colour and its rounding.
+  CHECK(farthest_from_checks(frame.render(gaussian(guarded))) < 3e-6);
+  // Shadows that cannot be told from places have the noise of both.
+  CHECK(farthest_from_checks(uneven_light(false).render(gaussian(guarded))) > 0.1);
+}
+
+TEST_CASE("The noise of places is left out of penumbrae, their mean stays", "[reconstruction]") {
+  DistributionFrame frame = penumbra_frame();
+  frame.shade = [](SceneSample& s) {
+    shade_penumbra(s, 48, 12);
+    // Bright along one axis, dark along the other, which says nothing of the shadow.
+    const float place = 1 + 0.95f * (s.rays[0].y[1] > 0 ? 1.0f : -1.0f);
+    for (size_t c = 0; c < 3; ++c) {
+      s.rays[0].drawn[c] = place * s.rays[0].unblocked[c];
+      s.rays[0].received[c] *= place;
+    }
+  };
+  const auto truth = [](int x, int y) { return penumbra_truth(x, y, 48, 12); };
+  const double blind = rms_error(frame.render(gaussian()), truth);
+  frame.has_drawn = true;
+  const Image image = frame.render(gaussian());
+  INFO(rms_error(image, truth) << " against " << blind << " without");
+  CHECK(rms_error(image, truth) < 0.8 * blind);
+  double mean = 0;
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 96; ++x) mean += truth(x, y) / (96 * 48);
+  CHECK(mean_of(image) == Approx(mean).epsilon(0.01));
+}
+
 TEST_CASE("Too many moments for the memory are refused", "[reconstruction]") {
   DistributionFrame frame = busy_frame(40, 30);
   frame.settings.memory_bytes = 1000;
