@@ -139,7 +139,7 @@ TEST_CASE("what is drawn is what the sample's own place sends, whatever is in it
   int dark = 0, partly = 0, bright = 0;
   for (uint32_t f = 0; f < bucket.fragments.size(); ++f) {
     const double a = sent(1.0, 1.0, first.of_sample(f)), b = sent(-0.5, 3.0, second.of_sample(f));
-    REQUIRE(effect.drawn[0][f] == Approx(a + b).epsilon(0.01));
+    REQUIRE(effect.drawn[0][f] == Approx(a + b).epsilon(1e-4));
     REQUIRE(effect.unblocked[0][f] == effect.unblocked[0][0]);
     const double received = effect.received[0][f];
     const bool has_a = received > 0.5 * a, has_b = received > 0.5 * b;
