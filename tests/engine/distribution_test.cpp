@@ -125,7 +125,7 @@ TEST_CASE("filters come nearer to the converged image and keep its energy", "[di
   const double energy = mean_of(reference);
 
   // The default's error falls with samples and stays below that without it. Measured against 4096
-  // samples: 0.21, 0.33 and 0.87 of the unfiltered error. What is left at 64 samples lies where
+  // samples: 0.21, 0.33 and 0.85 of the unfiltered error. What is left at 64 samples lies where
   // cells are more than points to the light, a good part of the pixels of so small a frame.
   const double most_of_plain[] = {0.35, 0.5, 1.0};
   double before = 1e30;
