@@ -145,6 +145,26 @@ TEST_CASE("filters come nearer to the converged image and keep its energy", "[di
   CHECK(mean_of(render_with(with_method("maaf"), 16)) == Approx(energy).epsilon(0.02));
 }
 
+TEST_CASE("shadows on what moves and is out of focus converge to those of the samples",
+          "[distribution]") {
+  // Cells are shaded at shutter open: what they say of the light is not the mean over the shutter.
+  SceneText blurred;
+  blurred.width = 48, blurred.height = 36;
+  blurred.lens = blurred.motion = true, blurred.bounce = false;
+  const std::string text = distribution_scene(blurred);
+  const auto render_with = [&](Settings settings, int samples, uint32_t seed = 0) {
+    settings.samples_per_pixel = samples, settings.seed = seed;
+    return render_text(text, settings);
+  };
+  const Image reference = render_with(with_method("filter"), 400, 7);
+  for (const int samples : {4, 64}) {
+    const double plain = relative_error(render_with(with_method("filter"), samples), reference);
+    const double filtered = relative_error(render_with({}, samples), reference);
+    CAPTURE(samples, plain, filtered);
+    CHECK(filtered < 1.1 * plain);
+  }
+}
+
 TEST_CASE("threads, buckets and crops do not show in a filtered image", "[distribution]") {
   SceneText all;
   all.lens = all.motion = true, all.side = 2;
