@@ -1,5 +1,7 @@
 #include "engine/extra_samples.h"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "reconstruct/sampling_rate.h"
@@ -127,4 +129,49 @@ TEST_CASE("Extra samples join those of their pixels", "[extra_samples]") {
       CHECK(values.groups[0][c * expected.size() + s] == expected[s] + 0.25f * float(c));
   }
   CHECK(values.distribution.t.empty());
+}
+
+TEST_CASE("Effects that only one side has are nothing on the other", "[extra_samples]") {
+  const PixelRect rect{0, 0, 2, 1};
+  const std::vector<uint8_t> chosen{0, 1};
+  const auto lit = [](SampleValues values, float base, bool drawn) {
+    EffectValues& effect = values.distribution.effects[size_t(RayEffect::shadow)];
+    effect.resize(values.x.size());
+    if (drawn) effect.add_drawn();
+    for (size_t s = 0; s < values.x.size(); ++s) {
+      const float value = base + float(s);
+      for (size_t c = 0; c < 3; ++c) {
+        effect.received[c][s] = value, effect.unblocked[c][s] = 2 * value;
+        if (drawn) effect.drawn[c][s] = 3 * value;
+      }
+      for (size_t a = 0; a < 2; ++a) effect.y[a][s] = 0.5f, effect.extent[a][s] = value;
+      effect.slope[s] = value;
+    }
+    return values;
+  };
+  const auto own = [&] { return values_of(rect, 2, 0); };
+  const auto more = [&] { return values_of({1, 0, 2, 1}, 2, 100); };
+  for (const bool own_is_lit : {true, false}) {
+    for (const bool drawn : {true, false}) {
+      CAPTURE(own_is_lit, drawn);
+      SampleValues values = own_is_lit ? lit(own(), 1, drawn) : own();
+      append_extra(chosen, 1, own_is_lit ? more() : lit(more(), 1, drawn), values);
+      const EffectValues& effect = values.distribution.effects[size_t(RayEffect::shadow)];
+      const std::vector<float> expected =
+          own_is_lit ? std::vector<float>{1, 2, 3, 4, 0, 0} : std::vector<float>{0, 0, 0, 0, 1, 2};
+      CHECK(effect.received[1] == expected);
+      CHECK(effect.extent[1] == expected);
+      REQUIRE(effect.unblocked[2].size() == 6);
+      REQUIRE(effect.slope.size() == 6);
+      REQUIRE(effect.drawn[0].size() == (drawn ? 6u : 0u));
+      for (size_t s = 0; s < 6; ++s) {
+        const bool is_lit = expected[s] > 0;
+        CHECK(effect.unblocked[2][s] == 2 * expected[s]);
+        if (drawn) CHECK(effect.drawn[0][s] == 3 * expected[s]);
+        CHECK(effect.y[0][s] == (is_lit ? 0.5f : 0.0f));
+        CHECK(std::isnan(effect.slope[s]) == !is_lit);
+      }
+      CHECK(values.distribution.effects[size_t(RayEffect::bounce)].empty());
+    }
+  }
 }

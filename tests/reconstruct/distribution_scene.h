@@ -30,6 +30,7 @@ struct SceneSample {
   float x = 0, y = 0;  ///< raster
   struct Ray {
     float y[2] = {0, 0}, received[3] = {0, 0, 0}, unblocked[3] = {0, 0, 0}, extent[2] = {1, 1};
+    float drawn[3] = {0, 0, 0};  ///< only of shadows, where DistributionFrame::has_drawn
     float slope = std::numeric_limits<float>::quiet_NaN();
   } rays[2];
   float u[2] = {0, 0}, t = 0;  ///< lens in [-1, 1], time in [0, 1]
@@ -68,6 +69,7 @@ struct DistributionFrame {
   ReconstructionSettings settings;
   int samples_per_pixel = 4;
   uint32_t seed = 1;
+  bool has_drawn = false;   ///< otherwise samples tell nothing of their own places
   bool stratified = false;  ///< first coordinates of a pixel's samples lie in strata of their own
   std::function<void(SceneSample&)> shade;  ///< fills the rest of a sample
   /// Samples of a pixel, where they differ from the others'.
@@ -79,6 +81,7 @@ struct DistributionFrame {
     settings.film.filter = "box";
     settings.film.filter_x_width = settings.film.filter_y_width = 1;
     settings.film.bucket_size = 16;
+    settings.spreads.lens = 1;  // u and v are uniform over [-1, 1]
   }
 
   float random(int x, int y, int k, uint32_t salt) const {
@@ -112,7 +115,8 @@ struct DistributionFrame {
                FilmCounters* counters = nullptr) const;
 };
 
-inline void append(SampleValues& values, const SceneSample& s, const DistributionFeatures& has) {
+inline void append(SampleValues& values, const SceneSample& s, const DistributionFeatures& has,
+                   bool has_drawn) {
   values.x.push_back(s.x), values.y.push_back(s.y);
   DistributionSamples& d = values.distribution;
   const bool rays[2] = {has.shadow, has.bounce};
@@ -121,6 +125,7 @@ inline void append(SampleValues& values, const SceneSample& s, const Distributio
     for (size_t c = 0; c < 3; ++c) {
       d.effects[e].received[c].push_back(s.rays[e].received[c]);
       d.effects[e].unblocked[c].push_back(s.rays[e].unblocked[c]);
+      if (e == 0 && has_drawn) d.effects[e].drawn[c].push_back(s.rays[e].drawn[c]);
     }
     for (size_t a = 0; a < 2; ++a) {
       d.effects[e].y[a].push_back(s.rays[e].y[a]);
@@ -150,7 +155,7 @@ inline SampleValues DistributionFrame::bucket(const PixelRect& rect) const {
       for (int k = 0; k < count; ++k) samples.push_back(sample(x, y, k));
     }
   if (sample_count) values.first_of_pixel.push_back(uint32_t(samples.size()));
-  for (const SceneSample& s : samples) append(values, s, settings.features);
+  for (const SceneSample& s : samples) append(values, s, settings.features, has_drawn);
   const auto rgb_of = [&](const SceneSample& s, size_t c) {
     return s.base[c] + (settings.features.shadow ? s.rays[0].received[c] : 0.0f) +
            (settings.features.bounce ? s.rays[1].received[c] : 0.0f);

@@ -111,6 +111,30 @@ TEST_CASE("other arguments are refused by name", "[method]") {
   CHECK_THROWS_AS(make_method("fsf", "x"), Error);
 }
 
+TEST_CASE("bounces are filtered with one component by wiener, as all else by others", "[method]") {
+  for (const Named& named : all_methods) {
+    CAPTURE(named.name, named.arguments);
+    const auto method = make_method(named.name, named.arguments);
+    const ReconstructionMethod& bounces = method->for_bounces();
+    CHECK(bounces.reach() <= method->reach());
+    if (named.name != std::string("wiener")) {
+      CHECK(&bounces == method.get());
+      continue;
+    }
+    REQUIRE(bounces.basis_count() == 1);
+    CHECK(bounces.guarded());
+    float value = 0;
+    bounces.basis({0.7f, {1, 2}, 0.3f, {}}, &value);
+    CHECK(value == 1.0f);
+    for (const AxisWedge& wedge : extreme_wedges) {
+      double sum = 0;
+      for (const float w : weights_of(bounces, wedge, 4)) sum += double(w);
+      CHECK(sum == Approx(1.0).margin(1e-5));
+    }
+    CHECK(weights_of(bounces, {2, 9}, 4) == weights_of(*make_method("wiener", "1"), {2, 9}, 4));
+  }
+}
+
 TEST_CASE("weights of any wedge are finite, bounded and keep a constant", "[method]") {
   for (const Named& named : all_methods) {
     const auto method = make_method(named.name, named.arguments);

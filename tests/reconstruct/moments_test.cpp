@@ -27,6 +27,7 @@ class TellingMethod : public ReconstructionMethod {
 DistributionFrame frame_of(std::function<void(SceneSample&)> shade) {
   DistributionFrame frame(4, 3);
   frame.settings.features = {true, true, true, true};
+  frame.has_drawn = true;
   frame.samples_per_pixel = 5;
   frame.shade = std::move(shade);
   return frame;
@@ -39,6 +40,7 @@ void shade_all(SceneSample& s) {
       s.rays[e].received[c] = 0.5f * float(e + 1) * s.y;
       s.rays[e].unblocked[c] = 2 + float(e);
     }
+    s.rays[0].drawn[c] = 2 + s.x;
   }
   s.rays[0].slope = 0.1f * s.x, s.rays[0].extent[0] = 3, s.rays[0].extent[1] = 4;
   s.rays[1].slope = nan_value;
@@ -51,10 +53,14 @@ void shade_all(SceneSample& s) {
 TEST_CASE("Layouts count their planes, and products their channels", "[moments]") {
   const TellingMethod method;
   const MomentLayout layout({true, true, true, true}, method);
-  CHECK(layout.value_count() == 3 + 1 + 6 + 6);
+  CHECK(layout.value_count() == 3 + 1 + 9 + 6);
   // Pairs: all four of degree at most 2, and the two of time.
-  CHECK(layout.carried_count() == 16 + 2 + 4 + 4 + 4 + 2);
-  CHECK(layout.plane_count() == 2 * 16 + 4 * 6 + 4 * 6 + 4 * 16 + 2 * 16);
+  CHECK(layout.carried_count() == 19 + 2 + 4 + 4 + 4 + 2);
+  CHECK(layout.plane_count() == 2 * 19 + 4 * 6 + 4 * 6 + 4 * 19 + 2 * 19);
+  CHECK(layout.drawn(RayEffect::shadow) == layout.received(RayEffect::shadow) + 3);
+  CHECK(layout.unblocked(RayEffect::shadow) == layout.received(RayEffect::shadow) + 6);
+  CHECK(layout.drawn(RayEffect::bounce) == layout.unblocked(RayEffect::bounce));
+  CHECK(layout.unblocked(RayEffect::bounce) == layout.received(RayEffect::bounce) + 3);
   size_t products = 0;
   for (const SampleProducts& p : layout.products()) products += p.factor_count * p.value_count;
   CHECK(products == layout.plane_count());
@@ -63,14 +69,14 @@ TEST_CASE("Layouts count their planes, and products their channels", "[moments]"
 
 TEST_CASE("Carried channels are the samples' values and factors", "[moments]") {
   DistributionFrame frame = frame_of(shade_all);
-  const float lens_extent = 2;
+  const SampleSpreads spreads{.lens = 2, .time = 0.25f};
   SampleValues values = frame.bucket({0, 0, 4, 3});
   const DistributionSamples d = values.distribution;
   const TellingMethod method;
   const MomentLayout layout(frame.settings.features, method);
   PixelFacts facts({0, 0, 4, 3}, frame.settings.features);
-  facts.add(values, lens_extent);
-  carry_moments(layout, method, facts, 0, lens_extent, values);
+  facts.add(values, spreads);
+  carry_moments(layout, facts, 0, spreads, values);
   const size_t n = values.x.size();
   const auto carried = [&](size_t c, size_t s) { return values.carried[c * n + s]; };
   for (size_t s = 0; s < n; ++s) {
@@ -80,6 +86,8 @@ TEST_CASE("Carried channels are the samples' values and factors", "[moments]") {
       REQUIRE(carried(c, s) == Approx(float(c) + values.x[s]).margin(1e-5));
       REQUIRE(carried(layout.received(RayEffect::bounce) + c, s) == Approx(values.y[s]));
       REQUIRE(carried(layout.unblocked(RayEffect::shadow) + c, s) == 2);
+      REQUIRE(carried(layout.drawn(RayEffect::shadow) + c, s) == 2 + values.x[s]);
+      REQUIRE(carried(layout.unblocked(RayEffect::bounce) + c, s) == 3);
     }
     REQUIRE(carried(MomentLayout::one, s) == 1);
     REQUIRE(carried(layout.even_factor(), s) == (s % 5 % 2 == 0 ? 1 : 0));
@@ -87,8 +95,8 @@ TEST_CASE("Carried channels are the samples' values and factors", "[moments]") {
     float low = 1e9f, high = -1e9f, lens_low = 1e9f, lens_high = -1e9f;
     for (size_t k = 5 * pixel; k < 5 * pixel + 5; ++k) {
       low = std::min(low, 0.1f * values.x[k] * 3), high = std::max(high, 0.1f * values.x[k] * 3);
-      lens_low = std::min(lens_low, -0.2f * values.y[k] * lens_extent);
-      lens_high = std::max(lens_high, -0.2f * values.y[k] * lens_extent);
+      lens_low = std::min(lens_low, -0.2f * values.y[k] * spreads.lens);
+      lens_high = std::max(lens_high, -0.2f * values.y[k] * spreads.lens);
     }
     const MomentStack& stack = *layout.stack(Blur::shadow);
     REQUIRE(stack.pairs[2].j == 1);
@@ -96,18 +104,43 @@ TEST_CASE("Carried channels are the samples' values and factors", "[moments]") {
     const double bx1 = d.u[s] / 2 + 10 * lens_low + 100 * lens_high;
     const double by0 = 1 + d.effects[0].y[1][s] + 10 * low * 4 / 3 + 100 * high * 4 / 3;
     REQUIRE(carried(stack.first_factor + 2, s) == Approx(bx1 * by0).epsilon(1e-4));
-    // Time: one axis, y = 2 t - 1; everything moves by -v/2 per unit of it.
+    // Time: one axis, y = 4 t - 2; everything moves by -v/4 per unit of it.
     const MomentStack& motion = *layout.stack(Blur::motion);
-    const double shift = 0.5 * std::hypot(3.0, 1.0);
+    const double shift = 0.25 * std::hypot(3.0, 1.0);
     REQUIRE(carried(motion.first_factor, s) ==
-            Approx(1 + 2 * d.t[s] - 1 + 110 * shift).epsilon(1e-5));
+            Approx(1 + 4 * d.t[s] - 2 + 110 * shift).epsilon(1e-5));
     // Nothing is known of the bounce, so its wedge is {0, 0}.
     REQUIRE(carried(layout.stack(Blur::bounce)->first_factor, s) ==
             Approx((1 + d.effects[1].y[0][s]) * (1 + d.effects[1].y[1][s])).margin(1e-5));
   }
 }
 
-TEST_CASE("Coordinates that are no numbers count as the middle", "[moments]") {
+TEST_CASE("Without light of its own places a shadow is drawn from what is unblocked", "[moments]") {
+  DistributionFrame frame = frame_of(shade_all);
+  frame.has_drawn = false;
+  SampleValues values = frame.bucket({0, 0, 4, 3});
+  const TellingMethod method;
+  const MomentLayout layout(frame.settings.features, method);
+  const PixelFacts facts({0, 0, 4, 3}, frame.settings.features);
+  carry_moments(layout, facts, 0, {}, values);
+  const size_t n = values.x.size();
+  for (size_t i = 0; i < 3 * n; ++i)
+    REQUIRE(values.carried[layout.drawn(RayEffect::shadow) * n + i] == 2);
+}
+
+TEST_CASE("Every stack carries the functions of its own method", "[moments]") {
+  const auto wiener = make_method("wiener", reconstruction_method_registry());
+  const MomentLayout layout({true, true, true, true}, *wiener);
+  CHECK(layout.stack(Blur::bounce)->method == &wiener->for_bounces());
+  CHECK(layout.stack(Blur::bounce)->pairs.size() == 1);
+  for (const Blur blur : {Blur::shadow, Blur::lens, Blur::motion})
+    CHECK(layout.stack(blur)->method == wiener.get());
+  CHECK(layout.stack(Blur::shadow)->pairs.size() == 6);  // of three functions, degree at most 2
+  CHECK(layout.stack(Blur::motion)->pairs.size() == 3);
+}
+
+TEST_CASE("Coordinates that are no numbers count as the middle, infinite ones as the farthest",
+          "[moments]") {
   DistributionFrame frame = frame_of([](SceneSample& s) {
     s.rays[0].y[0] = nan_value, s.rays[0].y[1] = std::numeric_limits<float>::infinity();
   });
@@ -115,10 +148,10 @@ TEST_CASE("Coordinates that are no numbers count as the middle", "[moments]") {
   const TellingMethod method;
   const MomentLayout layout(frame.settings.features, method);
   const PixelFacts facts({0, 0, 4, 3}, frame.settings.features);
-  carry_moments(layout, method, facts, 0, 1, values);
+  carry_moments(layout, facts, 0, {}, values);
   const size_t factor = layout.stack(Blur::shadow)->first_factor;
   for (size_t s = 0; s < values.x.size(); ++s)
-    REQUIRE(values.carried[factor * values.x.size() + s] == 2);  // (1 + 0) (1 + 1)
+    REQUIRE(values.carried[factor * values.x.size() + s] == 3);  // (1 + 0) (1 + 2)
 }
 
 TEST_CASE("Facts: wedges, normals and surfaces of a pixel's samples", "[moments]") {
@@ -131,7 +164,7 @@ TEST_CASE("Facts: wedges, normals and surfaces of a pixel's samples", "[moments]
   });
   const SampleValues values = frame.bucket({0, 0, 4, 3});
   PixelFacts facts({0, 0, 4, 3}, frame.settings.features);
-  facts.add(values, 2);
+  facts.add(values, {.lens = 2});
   const WedgePlanes& shadow = facts.wedges[size_t(Blur::shadow)];
   const WedgePlanes& lens = facts.wedges[size_t(Blur::lens)];
   for (int y = 0; y < 3; ++y) {

@@ -128,7 +128,7 @@ TEST_CASE("Degenerate frames give finite pixels", "[reconstruction]") {
       s.rays[0].slope = inf, s.rays[1].extent[0] = inf, s.coc[0] = inf, s.velocity[1] = -inf;
     };
     PixelFacts facts(frame.settings.film.crop, frame.settings.features);
-    facts.add(frame.bucket(frame.settings.film.crop), 1);
+    facts.add(frame.bucket(frame.settings.film.crop), frame.settings.spreads);
     for (const WedgePlanes& wedges : facts.wedges)
       for (size_t p = 0; p < 1200; ++p)
         for (size_t a = 0; a < 2; ++a) {

@@ -183,6 +183,88 @@ TEST_CASE("Nothing changes where nothing is noisy", "[reconstruction]") {
     REQUIRE(filtered.channels[0].values[p] == Approx(plain.channels[0].values[p]).epsilon(1e-6));
 }
 
+namespace {
+
+/// A surface of checks wholly lit by a light some of whose places shine ninety times brighter than
+/// the others.
+DistributionFrame uneven_light(bool has_drawn) {
+  DistributionFrame frame(48, 36);
+  frame.settings.features.shadow = true;
+  frame.has_drawn = has_drawn;
+  frame.shade = [](SceneSample& s) {
+    SceneSample::Ray& ray = s.rays[0];
+    const float place = ray.y[0] > 0.8f ? 9.0f : 0.1f;  // a tenth of them: 0.99 in the mean
+    set(ray.unblocked, checks(s.x, s.y));
+    set(ray.drawn, place * checks(s.x, s.y)), set(ray.received, place * checks(s.x, s.y));
+    ray.extent[0] = ray.extent[1] = 8;
+    ray.slope = s.x < 24 ? std::numeric_limits<float>::quiet_NaN() : 0.5f;
+  };
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("Where nothing is in the way, uneven places of a light make little noise",
+          "[reconstruction]") {
+  const bool guarded = GENERATE(false, true);
+  const DistributionFrame frame = uneven_light(true);
+  const auto truth = [](int x, int y) { return double(checks(float(x), float(y))); };
+  const double plain = rms_error(frame.render(nullptr), truth);
+  CHECK(plain > 0.5);
+  // The guard cannot always tell the noise of so uneven a light from a difference.
+  CHECK(rms_error(frame.render(gaussian(guarded)), truth) < 0.2 * plain);
+  // Shadows that cannot be told from places have the noise of both.
+  CHECK(rms_error(uneven_light(false).render(gaussian(guarded)), truth) > 0.2 * plain);
+}
+
+TEST_CASE("What cells say of the light gives way to the samples as these grow",
+          "[reconstruction]") {
+  const bool guarded = GENERATE(false, true);
+  // Wholly lit: cells say 1.2, samples' places 1 in the mean, from 0.5 to 1.5.
+  DistributionFrame frame(32, 32);
+  frame.settings.features.shadow = frame.has_drawn = true;
+  frame.shade = [](SceneSample& s) {
+    const float place = 1 + 0.5f * s.rays[0].y[0];
+    set(s.rays[0].unblocked, 1.2f), set(s.rays[0].drawn, place), set(s.rays[0].received, place);
+  };
+  double before = inf;
+  for (const int samples : {4, 16, 64, 256}) {
+    frame.samples_per_pixel = samples;
+    const auto error = [](const Image& image) {
+      return rms_error(image, [](int, int) { return 1.0; });
+    };
+    const double plain = error(frame.render(nullptr));
+    const double filtered = error(frame.render(gaussian(guarded)));
+    CAPTURE(samples, plain, filtered);
+    CHECK(filtered < 1.3 * plain);
+    CHECK(filtered < before);
+    before = filtered;
+  }
+}
+
+TEST_CASE("The noise of places is left out of penumbrae, their mean stays", "[reconstruction]") {
+  DistributionFrame frame = penumbra_frame();
+  frame.shade = [](SceneSample& s) {
+    shade_penumbra(s, 48, 12);
+    // Bright along one axis, dark along the other, which says nothing of the shadow.
+    const float place = 1 + 0.95f * (s.rays[0].y[1] > 0 ? 1.0f : -1.0f);
+    for (size_t c = 0; c < 3; ++c) {
+      s.rays[0].drawn[c] = place * s.rays[0].unblocked[c];
+      s.rays[0].received[c] *= place;
+    }
+  };
+  const auto truth = [](int x, int y) { return penumbra_truth(x, y, 48, 12); };
+  const double blind = rms_error(frame.render(gaussian()), truth);
+  frame.has_drawn = true;
+  const Image image = frame.render(gaussian());
+  INFO(rms_error(image, truth) << " against " << blind << " without");
+  CHECK(rms_error(image, truth) < 0.8 * blind);
+  double mean = 0;
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 96; ++x) mean += truth(x, y) / (96 * 48);
+  CHECK(mean_of(image) == Approx(mean).epsilon(0.01));
+}
+
 TEST_CASE("Too many moments for the memory are refused", "[reconstruction]") {
   DistributionFrame frame = busy_frame(40, 30);
   frame.settings.memory_bytes = 1000;

@@ -67,7 +67,7 @@ struct RandomStack {
 
   StackFilterInput input() const {
     StackFilterInput in;
-    in.stack = stack, in.method = &method, in.planes = &planes, in.facts = &facts;
+    in.stack = stack, in.planes = &planes, in.facts = &facts;
     in.shared = &shared;
     return in;
   }
@@ -179,4 +179,62 @@ TEST_CASE("The share of a pixel's own noise counts neighbours that share samples
   const double x = w(0, 0) + 0.3 * (w(0, 1) + w(0, -1)) + 0.1 * (w(0, 2) + w(0, -2));
   const double y = w(1, 0) + 0.2 * (w(1, 1) + w(1, -1));
   CHECK(out.own_weight[at] == Approx(x * y).margin(1e-5));
+}
+
+TEST_CASE("Narrowed wedges keep the least shift and a share of the way to the largest",
+          "[stack_filter]") {
+  const auto is = [](const AxisWedge& wedge, float low, float high) {
+    return wedge.low == low && wedge.high == high;
+  };
+  CHECK(is(narrowed({2, 6}, 0.25f), 2, 3));
+  CHECK(is(narrowed({-6, -2}, 0.25f), -3, -2));
+  CHECK(is(narrowed({-4, 8}, 0.25f), -1, 2));
+  CHECK(is(narrowed({0, 8}, 0.25f), 0, 2));
+  CHECK(is(narrowed({-8, 0}, 0.25f), -2, 0));
+  CHECK(is(narrowed({5, 5}, 0.25f), 5, 5));
+  for (const AxisWedge wedge : {AxisWedge{2, 6}, {-6, -2}, {-4, 8}, {0, 0}}) {
+    CHECK(is(narrowed(wedge, 1), wedge.low, wedge.high));
+    // Mirrored wedges narrow to mirrored ones.
+    const AxisWedge one = narrowed(wedge, 0.5f), other = narrowed({-wedge.high, -wedge.low}, 0.5f);
+    CHECK(is(other, -one.high, -one.low));
+  }
+}
+
+TEST_CASE("A stack filtered with a narrower wedge is one with narrower facts", "[stack_filter]") {
+  const PixelRect rect{0, 0, 24, 18};
+  const Blur blur = GENERATE(Blur::lens, Blur::motion);
+  RandomStack random(blur, rect);
+  WedgePlanes& wedges = random.facts.wedges[size_t(blur)];
+  const std::vector<uint8_t> all(size_t(rect.pixel_count()), 1);
+  if (blur == Blur::motion)  // towards +x, so that the line's wedge is that of x
+    for (size_t p = 0; p < all.size(); ++p) {
+      wedges.low[1][p] = wedges.high[1][p] = 0;
+      wedges.low[0][p] = -0.1f * float(p % 7), wedges.high[0][p] = 1 + 0.1f * float(p % 5);
+    }
+  const auto filter = [&](float width) {
+    StackFilterInput input = random.input();
+    input.wedge_width = width;
+    return blur == Blur::motion ? filter_lines(input, all) : filter_stack(input);
+  };
+  const StackFilterOutput narrow = filter(0.25f), wide = filter(1);
+  for (size_t p = 0; p < all.size(); ++p) {
+    for (size_t a = 0; a < 2; ++a) {
+      float &low = wedges.low[a][p], &high = wedges.high[a][p];
+      const float three_quarters = 0.75f * (high - low);
+      if (low >= 0) {
+        high -= three_quarters;
+      } else if (high <= 0) {
+        low += three_quarters;
+      } else {
+        low *= 0.25f, high *= 0.25f;
+      }
+    }
+  }
+  const StackFilterOutput expected = filter(1);
+  size_t changed = 0;
+  for (size_t p = 0; p < all.size(); ++p) {
+    REQUIRE(narrow.values[1][p] == Approx(expected.values[1][p]).margin(1e-4));
+    changed += narrow.values[1][p] != wide.values[1][p];
+  }
+  CHECK(changed > all.size() / 2);
 }

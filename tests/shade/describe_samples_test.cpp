@@ -88,6 +88,26 @@ TEST_CASE("effects composite through what lies in front, as colour does") {
   CHECK(out.effects[bounce].unblocked[0] == std::vector<float>{0.0f, 0.0f});
 }
 
+TEST_CASE("light drawn from the samples' own places composites as unblocked light does") {
+  Layers layers(true);  // half passes the first, which is matte
+  CHECK(layers.describe().effects[shadow].drawn[0].empty());
+  EffectValues& values = layers.shaded.effects[shadow];
+  values.add_drawn();
+  layers.light(shadow, 0, 0.5f, 0.25f, 3.0f);
+  layers.light(shadow, 1, 0.5f, 0.25f, 3.0f);
+  layers.light(shadow, 2, 1.0f, 0.75f, 7.0f);
+  for (size_t c = 0; c < 3; ++c) values.drawn[c] = {9.0f, float(c + 1), 4.0f};
+  DistributionSamples out = layers.describe();
+  for (size_t c = 0; c < 3; ++c) {
+    const float expected = 0.5f * float(c + 1) + 0.125f * 4.0f;
+    CHECK(out.effects[shadow].drawn[c] == std::vector<float>{expected, 0.0f});
+  }
+  CHECK(out.effects[bounce].drawn[0].empty());
+  values.drawn = values.unblocked;
+  out = layers.describe();
+  CHECK(out.effects[shadow].drawn == out.effects[shadow].unblocked);
+}
+
 TEST_CASE("matte surfaces hold effects out and bring none") {
   Layers layers(true);
   layers.light(shadow, 0, 1.0f, 1.0f, 1.0f);

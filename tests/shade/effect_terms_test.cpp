@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "hide/samples.h"
 #include "shade/fragment_points.h"
 #include "shade/light_terms.h"
@@ -109,6 +111,84 @@ TEST_CASE("samples' own rays average to the configuration factor, in every shadi
     }
     CHECK(std::sqrt(square) < 0.6 * independent);
   }
+}
+
+TEST_CASE("what is drawn is what the sample's own place sends, whatever is in its way") {
+  // Rectangles of 2 x 1 at depth 1 that shine towards the floor, seen by samples at one point.
+  const auto lamp = [](double x, float intensity) {
+    return call("rectanglelight", {number("width", 2), number("intensity", intensity)},
+                glm::translate(glm::dmat4(1.0), glm::dvec3(x, 0.25, 1.0)));
+  };
+  const auto sent = [](double x, double intensity, const glm::vec2& xi) {
+    const glm::dvec3 place(x + 2.0 * double(xi.x) - 1.0, 0.25 + double(xi.y) - 0.5, 1.0);
+    const glm::dvec3 to = place - glm::dvec3(1.0 / 3.0, -1.0 / 3.0, 3.0);
+    const double d2 = glm::dot(to, to);
+    return intensity * 2.0 * to.z * to.z / (d2 * d2) / 3.14159265358979;
+  };
+  const Yard yard({lamp(1.0, 1.0f), call("occlusionlight"), lamp(-0.5, 3.0f)});
+  TestBucket bucket = bucket_of(yard.floor(), {0, 0, 6, 6}, 16);
+  bucket.grids = {make_square(yard.floor(), 30, 3.0f)};  // with a vertex at that point
+  std::ranges::fill(bucket.fragments.triangle, 2 * (10 * 30 + 20));
+  std::ranges::fill(bucket.fragments.b1, 0.0f), std::ranges::fill(bucket.fragments.b2, 0.0f);
+  const SamplePlaces first(bucket.samples, RayEffect::shadow, 0),
+      second(bucket.samples, RayEffect::shadow, 1);
+  const Shaded shaded = shade(yard, bucket);
+  const EffectValues& effect = shaded.fragments.effects[shadow];
+  CHECK(shaded.fragments.effects[bounce].drawn[0].empty());
+  REQUIRE(effect.drawn[2].size() == bucket.fragments.size());
+  int dark = 0, partly = 0, bright = 0;
+  for (uint32_t f = 0; f < bucket.fragments.size(); ++f) {
+    const double a = sent(1.0, 1.0, first.of_sample(f)), b = sent(-0.5, 3.0, second.of_sample(f));
+    REQUIRE(effect.drawn[0][f] == Approx(a + b).epsilon(1e-4));
+    REQUIRE(effect.unblocked[0][f] == effect.unblocked[0][0]);
+    const double received = effect.received[0][f];
+    const bool has_a = received > 0.5 * a, has_b = received > 0.5 * b;
+    REQUIRE(received <= double(effect.drawn[0][f]));
+    dark += !has_a && !has_b, bright += received == double(effect.drawn[0][f]);
+    partly += received > 0 && received < 0.999 * double(effect.drawn[0][f]);
+  }
+  // The wall hides some places of the light beyond it, none of the other.
+  CHECK(bright > 20);
+  CHECK(partly > 20);
+  CHECK(dark == 0);
+  CHECK(mean(effect.drawn[0]) == Approx(mean(effect.unblocked[0])).epsilon(5e-3));
+}
+
+TEST_CASE("what is drawn is the share that is open times the term") {
+  const Yard yard({call("disclight", {number("radius", 0.8f)},
+                        glm::translate(glm::dmat4(1.0), glm::dvec3(0.5, 0.0, 2.0)))},
+                  "plastic");
+  CHECK(yard.bindings->light_term_count() == 2);  // and its mean over the places
+  const TestBucket bucket = bucket_of(yard.floor(), {0, 0, 4, 4}, 16);
+  const Shaded shaded = shade(yard, bucket);
+  const BoundLight& light = *yard.bindings->term_lights()[0];
+  REQUIRE((light.term && light.mean_term));
+  const SamplePlaces places(bucket.samples, RayEffect::shadow, 0);
+  LightServices services = yard.bindings->light_services();
+  ShadeCounters counters;
+  services.counters = &counters;
+  const auto& term = shaded.fragments.light_terms[*light.term];
+  const auto& mean_term = shaded.fragments.light_terms[*light.mean_term];
+  const EffectValues& effect = shaded.fragments.effects[shadow];
+  float least = 1e9f, most = 0;
+  for (uint32_t f = 0; f < bucket.fragments.size(); ++f) {
+    const LightPoints at({{1.0f / 3.0f, -1.0f / 3.0f, 3.0f}}, {0, 0, -1}, yard.floor().id);
+    Vec3Array mean_received(1);
+    for (int c = 0; c < 3; ++c) mean_received.component(c)[0] = mean_term[size_t(c)][f];
+    services.mean_received = &mean_received;
+    ShareSamples found;
+    found.reset(1);
+    const std::vector<glm::vec2> xi{places.of_sample(f)};
+    light.definition->share_from(light, at.points, xi, services, found);
+    least = std::min(least, found.open[0].x), most = std::max(most, found.open[0].x);
+    for (size_t c = 0; c < 3; ++c) {
+      const int channel = int(c);
+      REQUIRE(effect.unblocked[c][f] == term[c][f]);
+      REQUIRE(effect.drawn[c][f] == Approx(found.open[0][channel] * term[c][f]).epsilon(1e-4));
+      REQUIRE(effect.received[c][f] == Approx(found.share[0][channel] * term[c][f]).epsilon(1e-4));
+    }
+  }
+  CHECK(most > 1.5f * least);  // the places differ
 }
 
 TEST_CASE("what samples find does not depend on the bucket") {

@@ -178,7 +178,7 @@ TEST_CASE("surface shaders gather the light of places", "[light]") {
     const auto grid = make_square(scene.test.scene.surfaces.front(), 4, 3.0f);
     const SurfaceColors colors = run_surface(*scene.bindings, *grid);
     const bool apart = std::string(rate) == "sample";
-    REQUIRE(colors.light_terms.size() == (apart ? 1u : 0u));
+    REQUIRE(colors.light_terms.size() == (apart ? 2u : 0u));  // and the mean over its places
     for (int i = 0; i < grid->vertex_count(); ++i) {
       const glm::dvec3 P(grid->P(0, 0)[i], grid->P(0, 1)[i], 3.0);
       const double expected =
@@ -186,8 +186,27 @@ TEST_CASE("surface shaders gather the light of places", "[light]") {
       const glm::vec3 found = apart ? colors.light_terms[0][i] : colors.Ci[i];
       CHECK(found.x == Approx(expected).epsilon(4e-3));
       if (apart) CHECK(colors.Ci[i].x == 0.0f);
+      if (apart) CHECK(colors.light_terms[1][i].x == found.x);  // of a white surface the same
     }
   }
+}
+
+TEST_CASE("light that is shadowed apart is summed over sixteen times the places", "[light]") {
+  for (const char* name : {"rectanglelight", "disclight", "spherelight", "domelight"}) {
+    for (const char* rate : {"cell", "pixel", "sample"}) {
+      CAPTURE(name, rate);
+      const LitScene scene(call(name, {number("samples", 9), text("shadowrate", rate)}));
+      const bool apart = std::string(rate) != "cell";
+      CHECK(scene.light().places.size() == 9);
+      CHECK(scene.light().open_places.size() == (apart ? 144u : 9u));
+      CHECK(scene.light().term.has_value() == apart);
+      CHECK(scene.light().mean_term.has_value() == apart);
+      CHECK(scene.bindings->light_term_count() == (apart ? 2u : 0u));
+    }
+  }
+  const LitScene bounce(call("occlusionlight"));  // is the same from everywhere
+  CHECK(bounce.light().open_places.size() == bounce.light().places.size());
+  CHECK(bounce.bindings->light_term_count() == 1);
 }
 
 TEST_CASE("highlights of a small light with extent are those of a point light", "[light]") {

@@ -355,7 +355,32 @@ TEST_CASE("a ray's coordinate says where on the picture, beside its start, it me
         const double told = double(seen.slope[0]) * double(seen.extent[size_t(axis)][0]) *
                             double(seen.y[size_t(axis)][0]);
         CHECK(told == Approx(shift).epsilon(0.02).margin(1e-4));
-        CHECK(std::abs(seen.y[size_t(axis)][0]) <= 1.0f);
+        CHECK(std::abs(seen.y[size_t(axis)][0]) <= 1.1548f);  // 1 / 0.866
+      }
+    }
+  }
+}
+
+TEST_CASE("coordinates of bounces have the mean square of a uniform distribution") {
+  TestScene test;
+  const Surface& surface = test.add_surface("matte");
+  const auto bindings = test.bind();
+  const BruteTracer tracer({make_square(surface, 1, 2.0f)});
+  const BounceRadiance bounce(*bindings, tracer);
+  ShadeCounters counters;
+  const LightServices services{&bindings->camera(), &tracer, &bounce, &counters};
+  const auto xi = spread_over_square(64);
+  for (const char* name : {"indirectlight", "occlusionlight"}) {
+    const BoundLight light = bound(name, {}, test.diagnostics);
+    for (const glm::vec3& n : {glm::vec3(0, 0, -1), {0.4f, -0.3f, -1}, {-1, 0.2f, -0.3f}}) {
+      const LightPoints at(std::vector<glm::vec3>(xi.size(), {0.4f, 0.2f, 5}), glm::normalize(n));
+      const ShareSamples seen = shares_at(light, at, xi, services);
+      for (size_t axis = 0; axis < 2; ++axis) {
+        double squares = 0;
+        for (size_t i = 0; i < xi.size(); ++i)
+          squares += double(seen.y[axis][i]) * double(seen.y[axis][i]) / double(xi.size());
+        CAPTURE(name, axis, n.x);
+        CHECK(squares == Approx(1.0 / 3.0).epsilon(2e-3));
       }
     }
   }

@@ -90,17 +90,26 @@ struct BarePoints {
   }
 };
 
-/// The mean over the light's own places of Cl max(0, N . L) at P, unblocked.
-inline glm::dvec3 quadrature(const BoundLight& light, const glm::vec3& P, const glm::vec3& N) {
+/// The mean over places of the light of Cl max(0, N . L) at P, unblocked.
+inline glm::dvec3 quadrature(const BoundLight& light, const std::vector<glm::vec2>& places,
+                             const glm::vec3& P, const glm::vec3& N) {
   const BarePoints at({P}, N);
   glm::dvec3 sum(0.0);
-  for (const glm::vec2& place : light.places) {
+  for (const glm::vec2& place : places) {
     PlaceSamples from;
     from.reset(1);
     light.definition->illuminate_from(light, at.points, std::vector{place}, from);
     sum += glm::dvec3(from.arriving.Cl[0]) * std::max(0.0, double(glm::dot(N, from.arriving.L[0])));
   }
-  return sum / double(light.places.size());
+  return sum / double(places.size());
+}
+/// Over the places where rays are cast.
+inline glm::dvec3 quadrature(const BoundLight& light, const glm::vec3& P, const glm::vec3& N) {
+  return quadrature(light, light.places, P, N);
+}
+/// Over those that shares relate to.
+inline glm::dvec3 open_quadrature(const BoundLight& light, const glm::vec3& P, const glm::vec3& N) {
+  return quadrature(light, light.open_places, P, N);
 }
 
 /// Shares of many places at one point.

@@ -6,6 +6,7 @@
 
 #include "shade/receiver_frame.h"
 #include "tests/shade/light_fixtures.h"
+#include "tests/shade/ray_fixtures.h"
 
 using namespace tessera;
 using namespace tessera::test;
@@ -80,7 +81,7 @@ TEST_CASE("the mean share times the unblocked light is the shadowed light", "[li
     scene.bindings->use_rays(std::make_shared<AnalyticBlocker>(plane_blocker(3.0, half_plane)));
     for (const glm::vec3& P : {glm::vec3(0.2f, 0.1f, 5), {0.9f, -0.4f, 4}, {-0.3f, 0.3f, 7}}) {
       const ShareSamples found = shares(scene, P, {0, 0, -1}, spread_places(16384));
-      const double received = mean_share(found) * quadrature(scene.light(), P, {0, 0, -1}).x;
+      const double received = mean_share(found) * open_quadrature(scene.light(), P, {0, 0, -1}).x;
       CAPTURE(disc, P.x);
       CHECK(received == Approx(shadowed_sum(glm::dvec3(P), disc, true)).epsilon(4e-3));
       CHECK(received < 0.95 * shadowed_sum(glm::dvec3(P), disc, false));
@@ -113,8 +114,6 @@ TEST_CASE("a light that only just shows makes no bright dots and loses next to n
     const LitScene scene(
         call("rectanglelight",
              {number("width", 2), number("height", 2), number("samples", float(samples))}, place));
-    BoundLight light = scene.light();
-    light.places = light.open_places;  // those that shares relate to
     for (const double shown : {0.001, 0.008, 0.0313, 0.05, 0.1, 0.2, 0.5, 1.0}) {
       CAPTURE(samples, shown);
       const glm::vec3 N(normal(shown));
@@ -122,7 +121,7 @@ TEST_CASE("a light that only just shows makes no bright dots and loses next to n
       float most = 0.0f;
       for (int i = 0; i < found.share.count(); ++i) most = std::max(most, found.share[i].x);
       CHECK(most < 16.0f * 1.6f);  // the nearest part of the light sends 1.6 times the mean
-      const double received = mean_share(found) * quadrature(light, P, N).x;
+      const double received = mean_share(found) * open_quadrature(scene.light(), P, N).x;
       CHECK(received < 1.01 * exact(shown) + 1e-6);
       CHECK(received > 0.99 * exact(shown) - exact(1.0) / (samples == 16 ? 256 : 1024));
     }
@@ -152,12 +151,14 @@ TEST_CASE("under a dome a wall at right angles leaves half, and slopes are dista
   for (int i = 0; i < found.share.count(); ++i) {
     const size_t k = size_t(i);
     // Facing the eye squarely, 50 pixels a unit at depth 1, so 12.5 at depth 4.
-    CHECK(found.extent[0][k] == Approx(12.5f));
-    CHECK(found.extent[1][k] == Approx(12.5f));
-    CHECK(std::hypot(found.y[0][k], found.y[1][k]) <= 1.0001f);
-    if (found.y[0][k] < 1e-3f) continue;
-    // The sine towards the wall is y: it is 2 units away.
-    CHECK(found.slope[k] == Approx(2.0f / found.y[0][k]).epsilon(1e-3));
+    // Coordinates of a unit disc are spread by sqrt(3) / 2.
+    const float sine[] = {0.8660254f * found.y[0][k], 0.8660254f * found.y[1][k]};
+    CHECK(found.extent[0][k] == Approx(12.5f * 0.8660254f));
+    CHECK(found.extent[1][k] == Approx(12.5f * 0.8660254f));
+    CHECK(std::hypot(sine[0], sine[1]) <= 1.0001f);
+    if (sine[0] < 1e-3f) continue;
+    // The wall is 2 units away.
+    CHECK(found.slope[k] == Approx(2.0f / sine[0]).epsilon(1e-3));
   }
   int misses = 0;
   for (int i = 0; i < found.share.count(); ++i) misses += std::isnan(found.slope[size_t(i)]);
@@ -253,22 +254,34 @@ TEST_CASE("the shadow of a point moves so in two dimensions on tilted surfaces",
   }
 }
 
-TEST_CASE("extents bound the offsets of a light, tightly along the raster", "[light]") {
+TEST_CASE("coordinates have the mean square of a uniform distribution, whatever the light",
+          "[light]") {
   for (const char* name : {"rectanglelight", "disclight", "spherelight", "domelight"}) {
-    const LitScene scene(call(name, {number("width", 0.5f), number("height", 0.3f)}));
-    const ShareSamples found = shares(
-        scene, {0.5f, 0.2f, 4}, glm::normalize(glm::vec3(0.3f, 0.1f, -1)), spread_places(4096));
-    for (size_t axis = 0; axis < 2; ++axis) {
-      float least = 0.0f, most = 0.0f;
-      for (int i = 0; i < found.share.count(); ++i) {
-        CHECK(found.extent[axis][size_t(i)] == found.extent[axis][0]);
-        least = std::min(least, found.y[axis][size_t(i)]);
-        most = std::max(most, found.y[axis][size_t(i)]);
+    // Of a ball the middle is nearer than the rim, which draws places together by its size over
+    // the distance.
+    const LitScene scene(
+        call(name, {number("width", 0.5f), number("height", 0.3f), number("radius", 0.02f)}));
+    for (const glm::vec3& normal :
+         {glm::vec3(0, 0, -1), {0.3f, 0.1f, -1}, {-0.8f, 0.7f, -1}, {0.1f, 1, -0.6f}}) {
+      const ShareSamples found =
+          shares(scene, {0.5f, 0.2f, 4}, glm::normalize(normal), spread_over_square(64));
+      for (size_t axis = 0; axis < 2; ++axis) {
+        double squares = 0, sum = 0, most = 0;
+        for (int i = 0; i < found.share.count(); ++i) {
+          REQUIRE(found.extent[axis][size_t(i)] == found.extent[axis][0]);
+          const double y = found.y[axis][size_t(i)];
+          squares += y * y / found.share.count(), sum += y / found.share.count();
+          most = std::max(most, std::abs(y));
+        }
+        CAPTURE(name, axis, normal.x, normal.y);
+        CHECK(found.extent[axis][0] > 0.0f);
+        CHECK(squares == Approx(1.0 / 3.0).epsilon(0.02));
+        CHECK(sum == Approx(0.0).margin(0.02));
+        // Of a box the farthest corner may lie at sqrt(2), of a disc the rim at 1 / 0.866.
+        const bool box = std::string(name) == "rectanglelight";
+        CHECK(most <= (box ? 1.4143 : 1.1548) * 1.001);
+        CHECK(most > 0.98);
       }
-      CAPTURE(name, axis);
-      CHECK(found.extent[axis][0] > 0.0f);
-      CHECK((least >= -1.0f && least < -0.95f));
-      CHECK((most <= 1.0f && most > 0.95f));
     }
   }
 }
@@ -306,7 +319,9 @@ TEST_CASE("shares are finite on the light, behind it and where it does not reach
           CHECK(std::isfinite(found.share[i].x));
           CHECK(found.share[i].x >= 0.0f);
           CHECK(std::isfinite(found.extent[0][size_t(i)]));
-          CHECK(std::abs(found.y[1][size_t(i)]) <= 1.0f);
+          CHECK(std::abs(found.y[1][size_t(i)]) <= farthest_coordinate);
+          CHECK(std::isfinite(found.open[i].x));
+          CHECK(found.share[i].x <= found.open[i].x);
           CHECK_FALSE(found.slope[size_t(i)] < 0.0f);
         }
       }
