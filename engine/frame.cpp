@@ -93,7 +93,7 @@ float spread(int count, const DistanceOf& distance_of) {
   return float(std::sqrt(3 * squares / count));
 }
 
-/// ReconstructionSettings::lens_spread, by midpoints of 64 x 64 strata.
+/// SampleSpreads::lens, by midpoints of 64 x 64 strata.
 float lens_spread(const LensProfile& lens) {
   constexpr int side = 64;
   return spread(side * side, [&](int k) {
@@ -103,7 +103,7 @@ float lens_spread(const LensProfile& lens) {
   });
 }
 
-/// ReconstructionSettings::time_spread, by midpoints of 1024 strata.
+/// SampleSpreads::time, by midpoints of 1024 strata.
 float time_spread(const ShutterProfile& shutter) {
   constexpr int strata = 1024;
   return spread(strata,

@@ -124,10 +124,9 @@ TEST_CASE("filters come nearer to the converged image and keep its energy", "[di
   const Image reference = render_with(with_method("filter"), 400, 7);
   const double energy = mean_of(reference);
 
-  // The default's error falls with samples and stays below that without it. Measured against 4096
-  // samples: 0.21, 0.33 and 0.85 of the unfiltered error. What is left at 64 samples lies where
-  // cells are more than points to the light, a good part of the pixels of so small a frame.
-  const double most_of_plain[] = {0.35, 0.5, 1.0};
+  // The default's error falls with samples and stays below that without it. Measured: 0.25, 0.42
+  // and 0.69 of the unfiltered error.
+  const double most_of_plain[] = {0.35, 0.5, 0.85};
   double before = 1e30;
   for (const int step : {0, 1, 2}) {
     const int samples = 4 << (2 * step);
