@@ -117,7 +117,7 @@ TEST_CASE("places are drawn evenly over several grids of unequal triangles", "[l
   for (const int c : count) CHECK(c == Approx(n / 16).epsilon(0.02));
 }
 
-TEST_CASE("places well spread over [0, 1)^2 are so on a grid", "[light]") {
+TEST_CASE("places well spread over the unit square are so on a grid", "[light]") {
   TestScene test;
   const Emitter emitter(
       {rectangle_grid(test.add_surface("matte"), 32, {2, 2, 1}, {2, 0, 0}, {0, 2, 0})});
