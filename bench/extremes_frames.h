@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "bench/harness/benchmark.h"
+#include "bench/read_scene.h"
 #include "engine/frame.h"
 #include "images/compare.h"
-#include "scenes/rib/rib_reader.h"
 
 namespace tessera {
 
@@ -98,20 +98,11 @@ inline void normalise(Image& image, double reference_sum) {
 }
 
 inline void add_extreme_frames(BenchmarkContext& context) {
-  struct OneScene : SceneSink {
-    bool frame(std::unique_ptr<const Scene> read) override {
-      scene = std::move(read);
-      return true;
-    }
-    std::unique_ptr<const Scene> scene;
-  };
   for (const ExtremeFrame& extreme : extreme_frames()) {
-    OneScene sink;
-    Diagnostics diagnostics;
-    read_rib_text(extreme_frame_text(extreme), extreme.name, sink, diagnostics);
-    Image reference = render_extreme(*sink.scene, "filter", context.scaled(1024, 256), 1).image;
-    Image plain = render_extreme(*sink.scene, "filter", 0, 0).image;
-    Image filtered = render_extreme(*sink.scene, "wiener", 0, 0).image;
+    const auto scene = read_generated_scene(extreme_frame_text(extreme), extreme.name);
+    Image reference = render_extreme(*scene, "filter", context.scaled(1024, 256), 1).image;
+    Image plain = render_extreme(*scene, "filter", 0, 0).image;
+    Image filtered = render_extreme(*scene, "wiener", 0, 0).image;
     const double whole = sum_of(reference), energy = sum_of(filtered);
     size_t nonfinite = 0;
     for (const Image::Channel& channel : filtered.channels)

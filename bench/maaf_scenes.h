@@ -10,7 +10,7 @@
 #include "bench/maaf_conference.h"
 #include "bench/maaf_still_life.h"
 #include "bench/maaf_toasters.h"
-#include "scenes/rib/rib_reader.h"
+#include "bench/read_scene.h"
 
 namespace tessera {
 
@@ -28,21 +28,9 @@ inline std::string maaf_scene_text(const std::string& name, const MaafSceneReque
       fmt::format("no scene \"{}\"; expected conference, still_life, atrium or toasters", name));
 }
 
-/// Throws Error on anything that the reader warns of: the scenes are to be as they are written.
 inline std::unique_ptr<const Scene> read_maaf_scene(const std::string& name,
                                                     const MaafSceneRequest& request) {
-  struct OneScene : SceneSink {
-    bool frame(std::unique_ptr<const Scene> read) override {
-      scene = std::move(read);
-      return true;
-    }
-    std::unique_ptr<const Scene> scene;
-  } sink;
-  Diagnostics diagnostics;
-  read_rib_text(maaf_scene_text(name, request), name, sink, diagnostics);
-  if (!sink.scene) throw Error(fmt::format("scene {} holds no frame", name));
-  if (!diagnostics.lines().empty()) throw Error(diagnostics.lines().front());
-  return std::move(sink.scene);
+  return read_generated_scene(maaf_scene_text(name, request), name);
 }
 
 }  // namespace tessera

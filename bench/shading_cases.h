@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "bench/read_scene.h"
 #include "bench/shading_arena.h"
 #include "bench/shading_closeup.h"
 #include "bench/shading_flythrough.h"
 #include "bench/shading_textures.h"
 #include "engine/frame.h"
-#include "scenes/rib/rib_reader.h"
 #include "shade/shader.h"
 
 namespace tessera {
@@ -68,21 +68,9 @@ inline std::string shading_scene_text(const std::string& scene,
   throw Error(fmt::format("no scene \"{}\"; expected arena, closeup or flythrough", scene));
 }
 
-/// Throws Error on anything that the reader warns of: the scenes are to be as they are written.
 inline std::unique_ptr<const Scene> read_shading_scene(const std::string& name,
                                                        const ShadingSceneRequest& request) {
-  struct OneScene : SceneSink {
-    bool frame(std::unique_ptr<const Scene> read) override {
-      scene = std::move(read);
-      return true;
-    }
-    std::unique_ptr<const Scene> scene;
-  } sink;
-  Diagnostics diagnostics;
-  read_rib_text(shading_scene_text(name, request), name, sink, diagnostics);
-  if (!sink.scene) throw Error(fmt::format("scene {} holds no frame", name));
-  if (!diagnostics.lines().empty()) throw Error(diagnostics.lines().front());
-  return std::move(sink.scene);
+  return read_generated_scene(shading_scene_text(name, request), name);
 }
 
 /// The scene with another shader on all its surfaces.

@@ -32,8 +32,10 @@ glm::vec3 received(const LightSamples& samples, const Vec3Input& N, int i) {
   return samples.Cl[i] * std::max(0.0f, glm::dot(N[i], samples.L[i]));
 }
 
-/// The mean of Cl cos over the light's places at each point.
-Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points) {
+/// The mean over the light's places of value(arriving light, i) at each point i.
+template <class Value>
+Vec3Array mean_over_places(const BoundLight& light, const ShadingPoints& points,
+                           const Value& value) {
   Vec3Array mean(points.count);
   PlaceSamples from;
   std::vector<glm::vec2> xi(size_t(points.count));
@@ -42,11 +44,15 @@ Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points) {
     std::ranges::fill(xi, place);
     from.reset(points.count);
     light.definition->illuminate_from(light, points, xi, from);
-    for (int i = 0; i < points.count; ++i) {
-      mean.add(i, weight * received(from.arriving, points.N, i));
-    }
+    for (int i = 0; i < points.count; ++i) mean.add(i, weight * value(from.arriving, i));
   }
   return mean;
+}
+
+Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points) {
+  return mean_over_places(light, points, [&](const LightSamples& arriving, int i) {
+    return received(arriving, points.N, i);
+  });
 }
 
 /// `part` / `whole`, and 0 where the whole is 0.
@@ -57,21 +63,6 @@ glm::vec3 ratio(const glm::vec3& part, const glm::vec3& whole) {
     if (std::isfinite(quotient)) result[c] = quotient;
   }
   return result;
-}
-
-/// The mean of Cl over the light's places at each point.
-Vec3Array mean_arriving(const BoundLight& light, const ShadingPoints& points) {
-  Vec3Array mean(points.count);
-  PlaceSamples from;
-  std::vector<glm::vec2> xi(size_t(points.count));
-  const float weight = 1.0f / float(light.places.size());
-  for (const glm::vec2& place : light.places) {
-    std::ranges::fill(xi, place);
-    from.reset(points.count);
-    light.definition->illuminate_from(light, points, xi, from);
-    for (int i = 0; i < points.count; ++i) mean.add(i, weight * from.arriving.Cl[i]);
-  }
-  return mean;
 }
 
 /// Where nearly all of the light is below the surface the mean of Cl cos is next to nothing, and a
@@ -89,7 +80,8 @@ void bound_shares(const BoundLight& light, const ShadingPoints& points, const Li
   int first = 0;
   while (first < points.count && !is_large(first)) ++first;
   if (first == points.count) return;  // as good as always
-  const Vec3Array mean = mean_arriving(light, points);
+  const Vec3Array mean = mean_over_places(
+      light, points, [](const LightSamples& arriving, int i) { return arriving.Cl[i]; });
   for (int i = first; i < points.count; ++i) {
     const glm::vec3 sent = glm::max(glm::vec3(1.0f), ratio(from.Cl[i], mean[i]));
     share.set(i, glm::min(share[i], largest_cosine_ratio * sent));
