@@ -32,10 +32,8 @@ glm::vec3 received(const LightSamples& samples, const Vec3Input& N, int i) {
   return samples.Cl[i] * std::max(0.0f, glm::dot(N[i], samples.L[i]));
 }
 
-/// The mean over the light's places of value(arriving light, i) at each point i.
-template <class Value>
-Vec3Array mean_over_places(const BoundLight& light, const ShadingPoints& points,
-                           const Value& value) {
+/// The mean over the light's places of Cl cos at each point.
+Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points) {
   Vec3Array mean(points.count);
   PlaceSamples from;
   std::vector<glm::vec2> xi(size_t(points.count));
@@ -44,15 +42,28 @@ Vec3Array mean_over_places(const BoundLight& light, const ShadingPoints& points,
     std::ranges::fill(xi, place);
     from.reset(points.count);
     light.definition->illuminate_from(light, points, xi, from);
-    for (int i = 0; i < points.count; ++i) mean.add(i, weight * value(from.arriving, i));
+    for (int i = 0; i < points.count; ++i)
+      mean.add(i, weight * received(from.arriving, points.N, i));
   }
   return mean;
 }
 
-Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points) {
-  return mean_over_places(light, points, [&](const LightSamples& arriving, int i) {
-    return received(arriving, points.N, i);
-  });
+/// The mean over the light's places of Cl at point i.
+glm::vec3 mean_sent(const BoundLight& light, const ShadingPoints& points, int i) {
+  const std::vector<glm::vec2>& places = light.open_places;
+  const glm::vec3 P = points.P[i], N = points.N[i];
+  const std::vector<float> time(places.size(), points.time ? points.time[i] : 0.0f);
+  ShadingPoints same;  // the point, once for each place
+  same.count = int(places.size());
+  same.P = Vec3Input::uniform(&P.x);
+  same.N = Vec3Input::uniform(&N.x);
+  same.time = points.time ? time.data() : nullptr;
+  PlaceSamples from;
+  from.reset(same.count);
+  light.definition->illuminate_from(light, same, places, from);
+  glm::vec3 sum(0.0f);
+  for (int k = 0; k < same.count; ++k) sum += from.arriving.Cl[k];
+  return sum / float(same.count);
 }
 
 /// `part` / `whole`, and 0 where the whole is 0.
@@ -73,18 +84,12 @@ glm::vec3 ratio(const glm::vec3& part, const glm::vec3& whole) {
 /// 16^2) of what arrives where all of it shows.
 void bound_shares(const BoundLight& light, const ShadingPoints& points, const LightSamples& from,
                   Vec3Array& share) {
-  const auto is_large = [&](int i) {
+  for (int i = 0; i < points.count; ++i) {
     const glm::vec3 s = share[i];
-    return std::max({s.x, s.y, s.z}) > largest_cosine_ratio;
-  };
-  int first = 0;
-  while (first < points.count && !is_large(first)) ++first;
-  if (first == points.count) return;  // as good as always
-  const Vec3Array mean = mean_over_places(
-      light, points, [](const LightSamples& arriving, int i) { return arriving.Cl[i]; });
-  for (int i = first; i < points.count; ++i) {
-    const glm::vec3 sent = glm::max(glm::vec3(1.0f), ratio(from.Cl[i], mean[i]));
-    share.set(i, glm::min(share[i], largest_cosine_ratio * sent));
+    if (!(std::max({s.x, s.y, s.z}) > largest_cosine_ratio)) continue;
+    const glm::vec3 sent =
+        glm::max(glm::vec3(1.0f), ratio(from.Cl[i], mean_sent(light, points, i)));
+    share.set(i, glm::min(s, largest_cosine_ratio * sent));
   }
 }
 

@@ -21,7 +21,7 @@ std::vector<glm::vec2> spread_places(int count);
 int place_count(const BoundParameters& parameters);
 /// Where each sample casts a ray of its own, the unblocked light is summed over this many times as
 /// many places.
-inline constexpr int term_places_scale = 16;
+inline constexpr int term_places_scale = 4;
 
 /// Finite lights: sets entry i of `out` from the place `at` with unit `normal`, a part of a light
 /// of that area. Cl is radiance * cosine at the light * area / (pi d^2), so that the mean of Cl *

@@ -12,12 +12,18 @@ namespace {
 /// Keeps 1 / roughness finite.
 constexpr float least_roughness = 1e-4f;
 
-void add_diffuse(const LightSamples& light, const ShadingPoints& points, const Vec3Input& N,
-                 Vec3Array& sum) {
-  for (int i = 0; i < points.count; ++i) {
-    const glm::vec3 n = N[i];
-    sum.add(i, light.Cl[i] * mean_clamped_cosine(n, light.L[i], normal_spread(points, i, n)));
-  }
+/// How the normals N of each point spread within its cell: the same for every light.
+std::vector<NormalSpread> normal_spreads(const ShadingPoints& points, const Vec3Input& N) {
+  std::vector<NormalSpread> spreads;
+  spreads.reserve(size_t(points.count));
+  for (int i = 0; i < points.count; ++i) spreads.push_back(normal_spread(points, i, N[i]));
+  return spreads;
+}
+
+void add_diffuse(const LightSamples& light, const Vec3Input& N,
+                 std::span<const NormalSpread> spreads, Vec3Array& sum) {
+  for (int i = 0; i < int(spreads.size()); ++i)
+    sum.add(i, light.Cl[i] * mean_clamped_cosine(N[i], light.L[i], spreads[size_t(i)]));
 }
 
 void add_specular(const LightSamples& light, const ShadingPoints& points, const Vec3Input& N,
@@ -45,13 +51,14 @@ struct Gathering {
   Shadows shadows;
   Illumination& out;
   ShadeCounters& counters;
+  std::span<const NormalSpread> spreads;  ///< of N
 
   /// Whether shadows of `light` are part of what is gathered.
   bool casts(const BoundLight& light) const {
     return shadows == Shadows::cast && light.casts_shadows();
   }
   void add_directed(const LightSamples& samples) const {
-    add_diffuse(samples, points, N, out.diffuse);
+    add_diffuse(samples, N, spreads, out.diffuse);
     if (roughness) add_specular(samples, points, N, *roughness, out.specular);
   }
 };
@@ -96,10 +103,10 @@ void gather_whole(const Gathering& gathering, const BoundLight& light) {
 }
 
 /// No ray need be cast where the whole cell is turned away from the place.
-void leave_out_unlit(const ShadingPoints& points, PlaceSamples& from) {
-  for (int i = 0; i < points.count; ++i) {
-    const glm::vec3 n = points.N[i];
-    const float cosine = mean_clamped_cosine(n, from.arriving.L[i], normal_spread(points, i, n));
+void leave_out_unlit(const Vec3Input& N, std::span<const NormalSpread> spreads,
+                     PlaceSamples& from) {
+  for (int i = 0; i < int(spreads.size()); ++i) {
+    const float cosine = mean_clamped_cosine(N[i], from.arriving.L[i], spreads[size_t(i)]);
     if (cosine <= 0.0f) from.towards.set(i, glm::vec3(0.0f));
   }
 }
@@ -121,7 +128,7 @@ void gather_places(const Gathering& gathering, const BoundLight& light) {
     Vec3Array& Cl = from.arriving.Cl;
     for (int i = 0; i < facing.count; ++i) Cl.set(i, weight * Cl[i]);
     if (casts) {
-      leave_out_unlit(facing, from);
+      leave_out_unlit(gathering.N, gathering.spreads, from);
       trace_shadows(light.services->rays, facing, from.towards, light.extent.infinite, shadows);
       gathering.counters.rays += shadows.rays;
       scale(shadows.share, Cl);
@@ -139,7 +146,8 @@ void gather_light(std::span<const BoundLight* const> lights, const ShadingPoints
   out.ambient.reset(points.count);
   out.diffuse.reset(points.count);
   if (roughness) out.specular.reset(points.count);
-  const Gathering gathering{points, N, roughness, shadows, out, counters};
+  const std::vector<NormalSpread> spreads = normal_spreads(points, N);
+  const Gathering gathering{points, N, roughness, shadows, out, counters, spreads};
   for (const BoundLight* light : lights) {
     if (light->definition->illuminate_from) {
       gather_places(gathering, *light);

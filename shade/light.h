@@ -86,7 +86,7 @@ struct LightDefinition {
   void (*transmission)(const BoundLight& light, const ShadingPoints& points,
                        std::span<float> share) = nullptr;
   /// For lights with extent: fills `out`, already sized and zeroed, with what comes from place xi
-  /// in [0, 1)^2 to each point, as if nothing stood in the way. Reads P, N, `surface` and `time` of
+  /// in [0, 1)^2 to each point, as if nothing stood in the way. Reads P, N and `time` of
   /// the points, where N is the side of the surface that the light is wanted on.
   void (*illuminate_from)(const BoundLight& light, const ShadingPoints& points,
                           std::span<const glm::vec2> xi, PlaceSamples& out) = nullptr;

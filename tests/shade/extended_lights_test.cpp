@@ -198,7 +198,7 @@ TEST_CASE("light that is shadowed apart is summed over sixteen times the places"
       const LitScene scene(call(name, {number("samples", 9), text("shadowrate", rate)}));
       const bool apart = std::string(rate) != "cell";
       CHECK(scene.light().places.size() == 9);
-      CHECK(scene.light().open_places.size() == (apart ? 144u : 9u));
+      CHECK(scene.light().open_places.size() == (apart ? 36u : 9u));
       CHECK(scene.light().term.has_value() == apart);
       CHECK(scene.light().mean_term.has_value() == apart);
       CHECK(scene.bindings->light_term_count() == (apart ? 2u : 0u));
