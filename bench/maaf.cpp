@@ -3,11 +3,13 @@
 /// many samples that are not filtered (AAF: one axis-aligned Gaussian; S. Mehta et al.,
 /// "Axis-Aligned Filtering for Interactive Physically-Based Diffuse Indirect Lighting", 2013).
 ///
-/// Speed-ups compare times of whole frames at equal relMSE: the error of AAF and of unfiltered
-/// frames is measured at several sample counts, and counts and times interpolated between them;
-/// columns NAME_capped are 1 where even the most samples are worse (the speed-up is then at least
-/// this) and -1 where the fewest are better already (at most this). `speedup_vs_aaf_bound` takes
-/// the samples that AAF's own rule of sampling asks for instead, whatever the error.
+/// Speed-ups compare frames at equal relMSE: the error of AAF and of unfiltered frames is measured
+/// at several sample counts, and counts and times interpolated between them. `speedup_vs_NAME` is
+/// the ratio of sample counts, `time_ratio_vs_NAME` that of the times of whole frames, in which what
+/// a frame costs whatever its samples, and the filter, count too. Columns NAME_capped are 1 where
+/// even the most samples are worse (the ratios are then at least this) and -1 where the fewest are
+/// better already (at most this). `..._vs_aaf_bound` takes the samples that AAF's own rule of
+/// sampling asks for instead, whatever the error, and their time by the last two steps measured.
 
 #include "bench/harness/benchmark.h"
 #include "bench/maaf_runs.h"
@@ -68,6 +70,7 @@ class MaafBenchmark {
       measured_[spp].push_back(columns);
       context_.add_row(fmt::format("scene/{}{}", name, row_suffix(spp)), std::move(columns));
     }
+    add_methods_row(runs, name);
     add_converge_row(runs, name);
   }
 
@@ -102,7 +105,6 @@ class MaafBenchmark {
     const LadderPlace raw_place = equal_error(raw_ladder, run.rel_mse),
                       aaf_place = equal_error(aaf_ladder, run.rel_mse);
     const double bound_spp = statistic(aaf.frame.statistics.ratios, "aaf_bound_spp");
-    const LadderPlace bound = bound_spp > 0 ? at_samples(aaf_ladder, bound_spp) : LadderPlace{};
     const double frame_s = run.frame_s(), overhead = run.overhead_share();
     return {{"spp", double(spp)},
             {"rel_mse", run.rel_mse},
@@ -110,19 +112,29 @@ class MaafBenchmark {
             {"sampling_s", frame_s * (1 - overhead)},
             {"filter_s", run.filter_s()},
             {"overhead_share", overhead},
-            {"speedup_vs_aaf_bound", bound.seconds / frame_s},
-            {"speedup_vs_aaf", aaf_place.seconds / frame_s},
-            {"speedup_vs_unfiltered", raw_place.seconds / frame_s},
-            {"unfiltered_spp", raw_place.spp},
-            {"aaf_spp", aaf_place.spp},
-            {"aaf_bound_spp", bound_spp},
+            {"speedup_vs_aaf_bound", bound_spp / spp},
+            {"speedup_vs_aaf", aaf_place.spp / spp},
+            {"speedup_vs_unfiltered", raw_place.spp / spp},
+            {"time_ratio_vs_aaf_bound", seconds_of(aaf_ladder, bound_spp) / frame_s},
+            {"time_ratio_vs_aaf", aaf_place.seconds / frame_s},
+            {"time_ratio_vs_unfiltered", raw_place.seconds / frame_s},
             {"unfiltered_capped", double(raw_place.capped)},
             {"aaf_capped", double(aaf_place.capped)},
-            {"aaf_bound_capped", double(bound.capped)},
             {"unfiltered_rel_mse", raw.rel_mse},
             {"aaf_rel_mse", aaf.rel_mse},
             {"energy_ratio", runs.energy_ratio(run)},
             {"reference_rel_mse", runs.reference_rel_mse()}};
+  }
+
+  /// Every method at one sample count.
+  void add_methods_row(MaafRuns& runs, const std::string& name) {
+    Columns columns;
+    for (const std::string method : {MaafRuns::unfiltered, MaafRuns::aaf, "fsf", "maaf", "wiener"}) {
+      const MaafRun& run = runs.run(method, row_spp[0]);
+      columns.emplace_back(fmt::format("{}_rel_mse", method), run.rel_mse);
+      columns.emplace_back(fmt::format("{}_energy_ratio", method), runs.energy_ratio(run));
+    }
+    context_.add_row(fmt::format("methods/{}", name), std::move(columns));
   }
 
   void add_converge_row(MaafRuns& runs, const std::string& name) {
@@ -138,7 +150,8 @@ class MaafBenchmark {
   void add_average(int spp, const std::vector<Columns>& rows) {
     Columns columns;
     for (const std::string_view wanted :
-         {"overhead_share", "speedup_vs_aaf_bound", "speedup_vs_aaf", "speedup_vs_unfiltered"}) {
+         {"overhead_share", "speedup_vs_aaf_bound", "speedup_vs_aaf", "speedup_vs_unfiltered",
+          "time_ratio_vs_aaf_bound", "time_ratio_vs_aaf", "time_ratio_vs_unfiltered"}) {
       double sum = 0;
       for (const Columns& row : rows) sum += statistic(row, wanted);
       columns.emplace_back(wanted, sum / double(rows.size()));

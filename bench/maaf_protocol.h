@@ -53,14 +53,14 @@ inline LadderPlace equal_error(std::span<const LadderStep> ladder, double target
   return {ladder.back().spp, ladder.back().seconds, 1};
 }
 
-/// The place of a sample count.
-inline LadderPlace at_samples(std::span<const LadderStep> ladder, double spp) {
-  const LadderStep &first = ladder.front(), &last = ladder.back();
-  if (spp < first.spp) return {first.spp, first.seconds, -1};
-  for (size_t k = 1; k < ladder.size(); ++k)
-    if (spp <= ladder[k].spp)
-      return between(ladder[k - 1], ladder[k], log_share(ladder[k - 1].spp, ladder[k].spp, spp));
-  return {last.spp, last.seconds, spp > last.spp ? 1 : 0};
+/// How long `spp` samples a pixel take; past the ladder's end along the line through its last two
+/// steps, for nothing but samples grows there.
+inline double seconds_of(std::span<const LadderStep> ladder, double spp) {
+  if (spp < ladder.front().spp || ladder.size() < 2) return ladder.front().seconds;
+  size_t k = 1;
+  while (k + 1 < ladder.size() && spp > ladder[k].spp) ++k;
+  const LadderStep &a = ladder[k - 1], &b = ladder[k];
+  return a.seconds + (b.seconds - a.seconds) * (spp - a.spp) / (b.spp - a.spp);
 }
 
 }  // namespace tessera

@@ -57,16 +57,17 @@ TEST_CASE("the first step down to the error counts where errors rise again", "[m
   CHECK(equal_error(floor, 0.1).spp == 64);
 }
 
-TEST_CASE("a sample count finds its time, within the ladder only", "[maaf_protocol]") {
-  const auto ladder = power_ladder(1);
-  for (const double spp : {4.0, 5.0, 16.0, 90.0, 256.0}) {
-    CHECK(at_samples(ladder, spp).seconds == Approx(0.5 * spp));
-    CHECK(at_samples(ladder, spp).capped == 0);
-  }
-  CHECK(at_samples(ladder, 1000).capped == 1);
-  CHECK(at_samples(ladder, 1000).seconds == 128);
-  CHECK(at_samples(ladder, 1).capped == -1);
-  CHECK(at_samples(ladder, 1).seconds == 2);
+TEST_CASE("a sample count finds its time on the line through the steps around it",
+          "[maaf_protocol]") {
+  // 2 s and half a second a sample, and a last step that takes 10 s more.
+  const std::vector<LadderStep> ladder = {{4, 1, 4}, {16, 1, 10}, {64, 1, 44}};
+  for (const double spp : {4.0, 5.0, 10.0, 16.0})
+    CHECK(seconds_of(ladder, spp) == Approx(2 + 0.5 * spp));
+  CHECK(seconds_of(ladder, 40) == Approx(27));
+  CHECK(seconds_of(ladder, 64) == Approx(44));
+  CHECK(seconds_of(ladder, 112) == Approx(78));
+  CHECK(seconds_of(ladder, 1) == 4);
+  CHECK(seconds_of(std::span(ladder).first(1), 100) == 4);
 }
 
 TEST_CASE("errors and times of zero give finite places", "[maaf_protocol]") {
@@ -81,5 +82,5 @@ TEST_CASE("errors and times of zero give finite places", "[maaf_protocol]") {
     CHECK(place.capped == 0);
   }
   CHECK(equal_error(ladder, 0).spp == Approx(16));  // where the error is 0, not before
-  CHECK(std::isfinite(at_samples(ladder, 32).seconds));
+  CHECK(std::isfinite(seconds_of(ladder, 32)));
 }
