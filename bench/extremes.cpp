@@ -19,11 +19,14 @@ struct Stage {
 };
 
 /// In the order of a frame's way through them.
-constexpr Stage stages[] = {
-    {"cameras", add_camera_extremes}, {"dice", add_dice_extremes},
-    {"hide", add_hide_extremes},      {"shade", add_shade_extremes},
-    {"rays", add_ray_extremes},       {"lights", add_light_extremes},
-    {"frame", add_extreme_frames},    {"reconstruct", add_reconstruction_extremes}};
+constexpr Stage stages[] = {{"cameras", add_camera_extremes},
+                            {"dice", add_dice_extremes},
+                            {"hide", add_hide_extremes},
+                            {"shade", add_shade_extremes},
+                            {"rays", add_ray_extremes},
+                            {"lights", add_light_extremes},
+                            {"reconstruct", add_reconstruction_extremes},
+                            {"frame", add_extreme_frames}};
 
 void run(BenchmarkContext& context) {
   ExtremesTable table(context);
