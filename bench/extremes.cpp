@@ -1,38 +1,52 @@
-/// The extremes table: where formulas break, what the sheared hider sees there, and what long
-/// double rays and the brute-force hider see.
+/// The extremes table: where formulas of each stage break, and what it makes of that, held against
+/// closed forms, long double arithmetic and brute force.
 
+#include "bench/extremes_cameras.h"
+#include "bench/extremes_dice.h"
 #include "bench/extremes_frames.h"
+#include "bench/extremes_hide.h"
+#include "bench/extremes_lights.h"
+#include "bench/extremes_rays.h"
 #include "bench/extremes_reconstruct.h"
-#include "bench/harness/benchmark.h"
-#include "tests/hide/extreme_tally.h"
+#include "bench/extremes_shade.h"
 
 namespace tessera {
 namespace {
 
+struct Stage {
+  const char* name;
+  void (*add)(ExtremesTable&);
+};
+
+/// In the order of a frame's way through them.
+constexpr Stage stages[] = {{"cameras", add_camera_extremes},
+                            {"dice", add_dice_extremes},
+                            {"hide", add_hide_extremes},
+                            {"shade", add_shade_extremes},
+                            {"rays", add_ray_extremes},
+                            {"lights", add_light_extremes},
+                            {"reconstruct", add_reconstruction_extremes},
+                            {"frame", add_extreme_frames}};
+
 void run(BenchmarkContext& context) {
-  for (const ExtremeCase& extreme : extreme_cases()) {
-    const ExtremeRun what{
-        .hiders = {"shear"}, .other = "bbox", .tuples = {}, .rounds = context.scaled(10, 1)};
-    const ExtremeTally t = tally_extremes(extreme, what).front();
-    context.add_row(extreme.name, {{"samples", double(t.samples)},
-                                   {"oracle_hits", double(t.oracle_hits)},
-                                   {"doubtful", double(t.doubtful)},
-                                   {"disagreements", double(t.disagreements)},
-                                   {"hider_differences", double(t.hider_differences)},
-                                   {"worst_depth_error", t.worst_depth_error}});
+  ExtremesTable table(context);
+  bool found = false;
+  for (const Stage& stage : stages) {
+    if (!context.arguments.empty() && context.arguments[0] != stage.name) continue;
+    stage.add(table);
+    found = true;
   }
-  add_reconstruction_extremes(context);
-  add_extreme_frames(context);
+  if (!found) throw Error(fmt::format("no stage '{}' in the extremes table", context.arguments[0]));
 }
 
 }  // namespace
 
 BenchmarkDefinition benchmark_extremes() {
   return {"extremes",
-          "hider shear at the extremes against long double rays and against brute force (expected: "
-          "no disagreements, no differences), the weights of methods of reconstruction, and whole "
-          "frames with lights of extent against many samples",
-          run};
+          "every stage where its formulas break, against oracles that share no code with it "
+          "(fails when an error is beyond what the stage claims)",
+          run,
+          {"STAGE"}};
 }
 
 }  // namespace tessera

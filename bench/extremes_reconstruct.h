@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/harness/benchmark.h"
+#include "bench/extremes_table.h"
 #include "reconstruct/method.h"
 
 namespace tessera {
@@ -59,9 +59,10 @@ inline void tally_filter(const ReconstructionMethod& method, const std::vector<d
   tally.worst_sum_error = std::max(tally.worst_sum_error, std::abs(sum - 1.0));
 }
 
-/// Rows `reconstruct/METHOD`: equal slopes, slopes of both signs, none, and numbers from 1e-30 to
-/// 1e30, with 1 to 65536 samples. Expected: nothing that is not finite, sums of 1.
-inline void add_reconstruction_extremes(BenchmarkContext& context) {
+/// Equal slopes, slopes of both signs, none, and numbers from 1e-30 to 1e30, with 1 to 65536
+/// samples. Held against what a filter is: its weights are finite, add up to 1, and are those of
+/// the mirrored wedge mirrored.
+inline void add_reconstruction_extremes(ExtremesTable& table) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   const float sizes[] = {0.0f,  1e-30f, 1e-6f, 0.3f,  1.0f,    5.0f,
                          24.0f, 64.0f,  1e7f,  1e30f, infinity};
@@ -82,12 +83,14 @@ inline void add_reconstruction_extremes(BenchmarkContext& context) {
           }
         }
       }
-      context.add_row(fmt::format("reconstruct/{}{}", name, arguments),
-                      {{"filters", double(tally.filters)},
-                       {"nonfinite", double(tally.nonfinite)},
-                       {"worst_weight", tally.worst_weight},
-                       {"worst_sum_error", tally.worst_sum_error},
-                       {"worst_mirror_error", tally.worst_mirror_error}});
+      WorstError error{0, double(tally.filters)};
+      error.worst = std::max(tally.worst_sum_error, tally.worst_mirror_error);
+      if (tally.nonfinite > 0) error.worst = infinity;
+      table.add({"reconstruct", fmt::format("{}{}, slopes 0 to infinity", name, arguments),
+                 "weights of f = 1, mirrored wedges", error, "of 1", 1e-4,
+                 fmt::format("{} not finite, largest weight {:.3g}, sums to {:.2g}, mirrors {:.2g}",
+                             tally.nonfinite, tally.worst_weight, tally.worst_sum_error,
+                             tally.worst_mirror_error)});
     }
   }
 }

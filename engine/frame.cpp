@@ -237,7 +237,8 @@ FrameResult render_frame(const Scene& original, const Settings& settings, Diagno
   const Scene scene = apply_overrides(original, settings);
   const Camera camera(scene.camera);
   const auto bindings = bind_shaders(shade_setup(scene, camera, diagnostics));
-  const FramePlan plan = make_plan(scene, scene.camera, settings, *bindings);
+  FramePlan plan = make_plan(scene, scene.camera, settings, *bindings);
+  if (control.revise_plan) control.revise_plan(plan);
   const BucketLayout buckets = bucket_layout(plan, camera);
   const int threads = thread_count(settings);
 

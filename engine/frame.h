@@ -26,6 +26,8 @@ struct FrameControl {
   /// shade() sees the buckets in raster order.
   std::function<std::unique_ptr<Shading>(std::string_view spec, const ShadingFrame& frame)>
       make_shading;
+  /// Changes the plan before the frame is made. For measuring.
+  std::function<void(FramePlan& plan)> revise_plan;
 };
 
 struct FrameResult {

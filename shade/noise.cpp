@@ -93,7 +93,9 @@ float filtered_square_wave(float x, float width) {
     const float w = wrapped(value);
     return w < 1.0f ? w : 2.0f - w;
   };
-  return (integral(x + 0.5f * width) - integral(x - 0.5f * width)) / width;
+  // Wrapping is exact, and far from the origin half a width would be lost in x itself.
+  const float near = wrapped(x);
+  return (integral(near + 0.5f * width) - integral(near - 0.5f * width)) / width;
 }
 
 float filtered_checker(glm::vec2 st, glm::vec2 width) {

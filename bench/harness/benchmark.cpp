@@ -28,8 +28,9 @@ void BenchmarkContext::add_row(const std::string& case_name, Columns columns) {
     if (!is_lower_snake_case(name)) {
       throw Error(fmt::format("benchmark column '{}': expected lower_snake_case", name));
     }
-    if (!std::isfinite(value)) {
-      throw Error(fmt::format("benchmark case {}: column {} is {}", case_name, name, value));
+    const double* number = value.number();
+    if (number && !std::isfinite(*number)) {
+      throw Error(fmt::format("benchmark case {}: column {} is {}", case_name, name, *number));
     }
   }
   rows_.push_back({case_name, std::move(columns)});

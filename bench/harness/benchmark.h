@@ -2,28 +2,50 @@
 /// What a benchmark is made of. Every bench/STEM.cpp defines `BenchmarkDefinition
 /// benchmark_STEM();` and is then listed and run by `tessera_bench STEM`.
 
+#include <concepts>
 #include <functional>
-#include <initializer_list>
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace tessera {
 
+/// A value is a number, or words where the table has to say something (a verdict, an oracle).
+class BenchmarkValue {
+ public:
+  template <class Number>
+  requires std::integral<Number> || std::floating_point<Number> BenchmarkValue(Number number)
+      : value_(double(number)) {}
+  BenchmarkValue(const char* words) : value_(std::string(words)) {}
+  BenchmarkValue(std::string words) : value_(std::move(words)) {}
+
+  /// The number; throws std::bad_variant_access when the value is words.
+  explicit operator double() const { return std::get<double>(value_); }
+  BenchmarkValue& operator+=(double more) { return *this = double(*this) + more; }
+  /// Null when the value is words.
+  const double* number() const { return std::get_if<double>(&value_); }
+  /// Null when the value is a number.
+  const std::string* words() const { return std::get_if<std::string>(&value_); }
+
+ private:
+  std::variant<double, std::string> value_;
+};
+
 /// One line of a benchmark's table: values under column names in lower_snake_case with the unit as
 /// suffix (`tessera_s`, `peak_bytes`, `ratio`), in the order they are to be shown.
 struct BenchmarkRow {
   std::string case_name;
-  std::vector<std::pair<std::string, double>> columns;
+  std::vector<std::pair<std::string, BenchmarkValue>> columns;
 };
 
 /// What a benchmark is told, and where it puts its rows.
 class BenchmarkContext {
  public:
-  using Columns = std::vector<std::pair<std::string, double>>;
+  using Columns = std::vector<std::pair<std::string, BenchmarkValue>>;
 
   /// `is_quick`: less work, same rows; the whole benchmark within 50 s on two cores.
   explicit BenchmarkContext(bool is_quick, std::vector<std::string> given_arguments = {})
@@ -36,13 +58,18 @@ class BenchmarkContext {
   /// `many` or, in a quick run, `few`: for sizes and repeat counts.
   int scaled(int many, int few) const { return quick ? few : many; }
 
-  /// Throws Error when a column name is not lower_snake_case or the value is not finite.
+  /// Throws Error when a column name is not lower_snake_case or a number is not finite.
   void add_row(const std::string& case_name, Columns columns);
+  /// Something did not come out as it must: the program ends with an error that says `what`, after
+  /// the table.
+  void add_failure(const std::string& what) { failures_.push_back(what); }
 
   const std::vector<BenchmarkRow>& rows() const { return rows_; }
+  const std::vector<std::string>& failures() const { return failures_; }
 
  private:
   std::vector<BenchmarkRow> rows_;
+  std::vector<std::string> failures_;
 };
 
 struct BenchmarkDefinition {
@@ -108,7 +135,7 @@ std::string program_folder();
 /// Table of rows, columns aligned, for people. Rows may have different columns.
 std::string format_table(const std::vector<BenchmarkRow>& rows);
 
-/// {"machine": {...}, "command": "...", "rows": [{"case": "...", column: number, ...}]}.
+/// {"machine": {...}, "command": "...", "rows": [{"case": "...", column: number or words, ...}]}.
 nlohmann::ordered_json benchmark_json(const std::vector<BenchmarkRow>& rows,
                                       const std::string& command);
 

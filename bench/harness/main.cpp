@@ -51,9 +51,13 @@ void run_benchmark(const Request& request) {
   const double total_s = seconds_of([&] { benchmark.run(context); });
   fmt::print("{}: {}\n\n{}\n{:.1f} s in all\n", benchmark.name, benchmark.help,
              format_table(context.rows()), total_s);
-  if (request.json_file.empty()) return;
-  write_text_file(request.json_file,
-                  benchmark_json(context.rows(), request.command()).dump(2) + "\n");
+  if (!request.json_file.empty()) {
+    write_text_file(request.json_file,
+                    benchmark_json(context.rows(), request.command()).dump(2) + "\n");
+  }
+  if (!context.failures().empty())
+    throw Error(
+        fmt::format("{} failed:\n  {}", request.name, fmt::join(context.failures(), "\n  ")));
 }
 
 }  // namespace

@@ -13,8 +13,10 @@
 namespace tessera {
 namespace {
 
-/// Whole counts in full, anything else to four digits.
-std::string format_value(double value) {
+/// Whole counts in full, other numbers to four digits, words as they are.
+std::string format_value(const BenchmarkValue& of) {
+  if (of.words()) return *of.words();
+  const double value = *of.number();
   if (value == std::floor(value) && std::abs(value) < 1e15) return fmt::format("{:.0f}", value);
   return fmt::format("{:.4g}", value);
 }
@@ -43,14 +45,16 @@ nlohmann::ordered_json describe_machine() {
 
 using Table = std::vector<std::vector<std::string>>;
 
+size_t column_of(const std::vector<std::string>& header, const std::string& name) {
+  return size_t(std::find(header.begin() + 1, header.end(), name) - header.begin());
+}
+
 /// Every cell as text, the header first. A row leaves the columns that it lacks empty.
 Table lay_out(const std::vector<BenchmarkRow>& rows) {
   std::vector<std::string> header{"case"};
   for (const BenchmarkRow& row : rows) {
     for (const auto& column : row.columns) {
-      if (std::find(header.begin() + 1, header.end(), column.first) == header.end()) {
-        header.push_back(column.first);
-      }
+      if (column_of(header, column.first) == header.size()) header.push_back(column.first);
     }
   }
   Table table{header};
@@ -58,8 +62,7 @@ Table lay_out(const std::vector<BenchmarkRow>& rows) {
     std::vector<std::string>& cells = table.emplace_back(header.size());
     cells[0] = row.case_name;
     for (const auto& [name, value] : row.columns) {
-      const auto column = std::find(header.begin() + 1, header.end(), name) - header.begin();
-      cells[size_t(column)] = format_value(value);
+      cells[column_of(header, name)] = format_value(value);
     }
   }
   return table;
@@ -73,10 +76,20 @@ std::string format_table(const std::vector<BenchmarkRow>& rows) {
   for (const auto& cells : table) {
     for (size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());
   }
+  // Words begin at the left of their column, numbers end at the right.
+  std::vector<bool> of_words(widths.size());
+  for (const BenchmarkRow& row : rows) {
+    for (const auto& [name, value] : row.columns) {
+      if (value.words()) of_words[column_of(table[0], name)] = true;
+    }
+  }
   std::string text;
   for (const auto& cells : table) {
     text += fmt::format("{:<{}}", cells[0], widths[0]);
-    for (size_t i = 1; i < cells.size(); ++i) text += fmt::format("  {:>{}}", cells[i], widths[i]);
+    for (size_t i = 1; i < cells.size(); ++i) {
+      text += of_words[i] ? fmt::format("  {:<{}}", cells[i], widths[i])
+                          : fmt::format("  {:>{}}", cells[i], widths[i]);
+    }
     text += '\n';
   }
   return text;
@@ -89,7 +102,12 @@ nlohmann::ordered_json benchmark_json(const std::vector<BenchmarkRow>& rows,
                               {"rows", nlohmann::ordered_json::array()}};
   for (const BenchmarkRow& row : rows) {
     nlohmann::ordered_json entry{{"case", row.case_name}};
-    for (const auto& [name, value] : row.columns) entry[name] = value;
+    for (const auto& [name, value] : row.columns) {
+      if (value.words())
+        entry[name] = *value.words();
+      else
+        entry[name] = *value.number();
+    }
     json["rows"].push_back(entry);
   }
   return json;
