@@ -1,0 +1,71 @@
+// Logarithmic axes that keep a place for zero.
+import {extent} from 'd3-array';
+import {axisBottom, axisLeft} from 'd3-axis';
+import {scaleLog} from 'd3-scale';
+import {select} from 'd3-selection';
+import {significant} from './format.js';
+
+const GUTTER = 26; // pixels at the low end for values that are zero
+
+/**
+ * A scale for the values of `of` in `runs` from pixel `low` to pixel `high`: {place(run), scale,
+ * zero: whether some value is 0}. place() gives null for values that are unknown.
+ */
+export function logScale(runs, of, low, high) {
+  const values = runs.map((run) => run[of.key]).filter((value) => typeof value === 'number' && value >= 0);
+  const positive = values.filter((value) => value > 0).map((value) => value * of.scale);
+  const zero = values.length > positive.length;
+  const start = low + (zero ? GUTTER * Math.sign(high - low) : 0);
+  const scale = scaleLog().domain(padded(positive)).range([start, high]);
+  const place = (run) => {
+    const value = run[of.key];
+    if (typeof value !== 'number' || value < 0) return null;
+    return value === 0 ? low + 8 * Math.sign(high - low) : scale(value * of.scale);
+  };
+  return {place, scale, zero, low};
+}
+
+/** A tenth of the span around the values, and no less than a factor of 1.5 in all. */
+function padded(values) {
+  if (values.length === 0) return [0.1, 10];
+  const [lowest, highest] = extent(values);
+  const margin = Math.max((highest / lowest) ** 0.06, 1.22);
+  return [lowest / margin, highest * margin];
+}
+
+/** Ticks worth a label: 1, 2, 5 of each decade, or 1 alone over many decades. */
+function labelled(scale) {
+  const [lowest, highest] = scale.domain();
+  const decades = Math.log10(highest / lowest);
+  const mantissas = decades > 3.2 ? [1] : decades > 1.7 ? [1, 3] : decades > 0.7 ? [1, 2, 5] : null;
+  if (!mantissas) return scale.copy().ticks(6);
+  const ticks = [];
+  for (let power = Math.floor(Math.log10(lowest)); power <= Math.log10(highest); power += 1) {
+    for (const mantissa of mantissas) ticks.push(Number(`${mantissa}e${power}`));
+  }
+  return ticks.filter((tick) => tick >= lowest && tick <= highest);
+}
+
+/** "0.002", "50", "2e6": as short as the number allows. */
+function tickText(value) {
+  if (value >= 1e-4 && value < 1e5) return String(Number(value.toPrecision(3)));
+  return significant(value, 3).replace(/\.?0+e/, 'e');
+}
+
+function drawAxis(group, axis, zeroAt, horizontal) {
+  select(group).call(axis);
+  if (zeroAt === null) return;
+  select(group).append('text').attr('class', 'zero').text('0').attr('fill', 'currentColor')
+    .attr(horizontal ? 'x' : 'y', zeroAt).attr(horizontal ? 'y' : 'x', horizontal ? 9 : -9)
+    .attr('dy', horizontal ? '0.71em' : '0.32em').attr('text-anchor', horizontal ? 'middle' : 'end');
+}
+
+/** Draws both axes with grid lines into two empty groups. `box`: {left, right, top, bottom}. */
+export function drawAxes(xGroup, yGroup, x, y, box) {
+  const bottom = axisBottom(x.scale).tickValues(labelled(x.scale)).tickFormat(tickText)
+    .tickSizeInner(-(box.bottom - box.top)).tickSizeOuter(0).tickPadding(8);
+  const left = axisLeft(y.scale).tickValues(labelled(y.scale)).tickFormat(tickText)
+    .tickSizeInner(-(box.right - box.left)).tickSizeOuter(0).tickPadding(8);
+  drawAxis(xGroup, bottom, x.zero ? x.low + 8 : null, true);
+  drawAxis(yGroup, left, y.zero ? y.low - 8 : null, false);
+}

@@ -1,0 +1,182 @@
+#include "tests/report/fixture.h"
+
+#include <stdlib.h>
+
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "images/exr.h"
+
+namespace tessera::fixture {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int run_count = 12, strange_run = 5, markup_run = 8, failed_run = 12;
+
+bool has_heatmap(int run) { return run == 1 || run == 4; }
+std::string image_name(int run) { return fmt::format("runs/{:04}.exr", run); }
+std::string heatmap_name(int run) { return fmt::format("runs/{:04}.tests.exr", run); }
+
+Image strange_image(double gain) {
+  Image image = gradient(gain);
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (Image::Channel& channel : image.channels) {
+    channel.values[image.index(10, 5)] = std::numeric_limits<float>::quiet_NaN();
+    channel.values[image.index(20, 5)] = 1e30f;
+    if (channel.name == "R") channel.values[image.index(30, 5)] = infinity;
+    channel.values[image.index(40, 5)] = -1.0f;
+  }
+  return image;
+}
+
+Image heatmap(int factor) {
+  Image image(width, height);
+  Image::Channel& channel = image.add_channel("heatmap.tests");
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) channel.values[image.index(x, y)] = float(factor * x);
+  return image;
+}
+
+/// The number of samples and another knob, three runs a value.
+Json settings_of(int run) {
+  static const char* const hiders[] = {"", "bbox", "tct", "dual"};
+  Json settings = {{"spp", std::to_string(1 << 2 * ((run - 1) % 3 + 1))}};
+  const std::string hider = hiders[(run - 1) / 3];
+  if (!hider.empty()) settings["hider"] = hider;
+  return settings;
+}
+
+std::string label_of(int run) {
+  if (run == markup_run) return "hider=<b>tct</b></script><script>alert(1)</script><!-- spp=16";
+  std::string label;
+  const Json settings = settings_of(run);  // items() does not keep a temporary alive
+  for (const auto& [name, value] : settings.items())
+    label =
+        fmt::format("{}{}{}={}", label, label.empty() ? "" : " ", name, value.get<std::string>());
+  return label;
+}
+
+Json ok_run(int run) {
+  const double seconds = 0.05 * double(1 << (run - 1) % 3) * (1.0 + 0.3 * ((run * 5) % 7));
+  const double error = 0.02 / double(1 << 2 * ((run - 1) % 3)) * (1.0 + 0.1 * ((run * 3) % 5));
+  return {{"frame_s", seconds},
+          {"frame_s_all", {seconds, seconds * 1.01}},
+          {"wall_s", seconds + 0.1},
+          {"cpu_s", seconds * 1.9},
+          {"peak_bytes", 40'000'000 + run * 1'000'000},
+          {"rays", run == 3 ? Json(nullptr) : Json(run == 7 ? 0 : 1000 * ((run * 7) % 11 + 1))},
+          {"shaded_points", 90'000 + 1000 * run},
+          {"samples", 9216 * run},
+          {"ste", 0.2 + 0.01 * run},
+          {"rmse", error * 3.0},
+          {"rel_mse", error},
+          {"visible", run == 3 ? 0.0 : error},
+          {"pareto", run <= 3},
+          {"image", image_name(run)},
+          {"heatmaps", has_heatmap(run) ? Json{{"tests", heatmap_name(run)}} : Json::object()}};
+}
+
+Json run_json(int run) {
+  const Json settings = settings_of(run);
+  Json json = {{"id", fmt::format("{:04}", run)},
+               {"label", label_of(run)},
+               {"options", Json::array()},
+               {"settings", settings},
+               {"ok", run != failed_run},
+               {"error", run == failed_run ? "no memory: <b>4 GiB</b> needed</script>" : ""}};
+  for (const auto& [name, value] : settings.items()) {
+    json["options"].push_back("--" + name);
+    json["options"].push_back(value);
+  }
+  if (run != failed_run) {
+    json.update(ok_run(run));
+    return json;
+  }
+  for (const char* name : {"frame_s", "wall_s", "cpu_s", "peak_bytes", "rays", "shaded_points",
+                           "samples", "ste", "rmse", "rel_mse", "visible", "image"})
+    json[name] = nullptr;
+  json["pareto"] = false;
+  return json;
+}
+
+Json extremes() {
+  return {{"title", "Extremes"},
+          {"columns",
+           {{{"name", "case"}}, {{"name", "frame_s"}, {"unit", "s"}}, {{"name", "verdict"}}}},
+          {"rows", {{"blur of <i>1000</i> pixels", 1.25, "ok"}, {"no light", nullptr, "failed"}}},
+          {"notes", {"Times are medians."}}};
+}
+
+}  // namespace
+
+Image gradient(double gain) {
+  Image image(width, height);
+  for (const char* name : {"R", "G", "B"}) image.add_channel(name);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const size_t i = image.index(x, y);
+      image.channels[0].values[i] = float(gain * (x + 0.5) / width);
+      image.channels[1].values[i] = float(gain * (y + 0.5) / height);
+      image.channels[2].values[i] = float(gain / 4);
+    }
+  return image;
+}
+
+Json table() {
+  Json runs = Json::array();
+  for (int run = 1; run <= run_count; ++run) runs.push_back(run_json(run));
+  return {{"version", 1},
+          {"scene", "scenes/<fixture>.rib"},
+          {"scene_hash", "0123456789abcdef"},
+          {"software", "Tessera 0.1.0"},
+          {"machine", {{"cpu", "a processor"}, {"cores", 2}}},
+          {"created", "2026-01-02T03:04:05Z"},
+          {"reference",
+           {{"file", "reference.exr"},
+            {"spp", 1024},
+            {"frame_s", 12.3},
+            {"options", {"--spp", "1024"}},
+            {"rel_mse", 1e-5}}},
+          {"knobs",
+           {{{"name", "spp"},
+             {"what", "samples per pixel"},
+             {"default", "16"},
+             {"values", {"4", "16", "64"}}},
+            {{"name", "hider"},
+             {"what", "how visibility is found"},
+             {"default", "auto"},
+             {"values", {"bbox", "tct", "dual"}}}}},
+          {"runs", runs},
+          {"words", {"More samples & <less> error."}},
+          {"tables", Json::array({extremes()})}};
+}
+
+void write(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "runs");
+  write_exr((folder / "reference.exr").string(), gradient(1.0));
+  for (int run = 1; run <= run_count; ++run) {
+    const double gain = 1.0 + run / 16.0;
+    if (run != failed_run)
+      write_exr((folder / image_name(run)).string(),
+                run == strange_run ? strange_image(gain) : gradient(gain));
+    if (has_heatmap(run)) write_exr((folder / heatmap_name(run)).string(), heatmap(run));
+  }
+  std::ofstream(folder / "trade.json") << table().dump(1);
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "tessera-report-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace tessera::fixture
