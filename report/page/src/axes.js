@@ -6,22 +6,23 @@ import {select} from 'd3-selection';
 import {significant} from './format.js';
 
 const GUTTER = 26; // pixels at the low end for values that are zero
+const ZERO = 8; // pixels from the low end to those
+
+/** Whether a value has a place on an axis; unknown and negative ones have none. */
+export const hasPlace = (value) => typeof value === 'number' && value >= 0;
 
 /**
- * A scale for the values of `of` in `runs` from pixel `low` to pixel `high`: {place(run), scale,
- * zero: whether some value is 0}. place() gives null for values that are unknown.
+ * A scale for the values of `of` in `runs`, all of which have a place, from pixel `low` to pixel
+ * `high`: {place(run), scale, zero: whether some value is 0, low}.
  */
 export function logScale(runs, of, low, high) {
-  const values = runs.map((run) => run[of.key]).filter((value) => typeof value === 'number' && value >= 0);
+  const values = runs.map((run) => run[of.key]);
   const positive = values.filter((value) => value > 0).map((value) => value * of.scale);
-  const zero = values.length > positive.length;
+  const zero = positive.length < values.length;
   const start = low + (zero ? GUTTER * Math.sign(high - low) : 0);
   const scale = scaleLog().domain(padded(positive)).range([start, high]);
-  const place = (run) => {
-    const value = run[of.key];
-    if (typeof value !== 'number' || value < 0) return null;
-    return value === 0 ? low + 8 * Math.sign(high - low) : scale(value * of.scale);
-  };
+  const place = (run) =>
+    run[of.key] === 0 ? low + ZERO * Math.sign(high - low) : scale(run[of.key] * of.scale);
   return {place, scale, zero, low};
 }
 
@@ -66,6 +67,6 @@ export function drawAxes(xGroup, yGroup, x, y, box) {
     .tickSizeInner(-(box.bottom - box.top)).tickSizeOuter(0).tickPadding(8);
   const left = axisLeft(y.scale).tickValues(labelled(y.scale)).tickFormat(tickText)
     .tickSizeInner(-(box.right - box.left)).tickSizeOuter(0).tickPadding(8);
-  drawAxis(xGroup, bottom, x.zero ? x.low + 8 : null, true);
-  drawAxis(yGroup, left, y.zero ? y.low - 8 : null, false);
+  drawAxis(xGroup, bottom, x.zero ? x.low + ZERO : null, true);
+  drawAxis(yGroup, left, y.zero ? y.low - ZERO : null, false);
 }

@@ -1,26 +1,26 @@
 // What was measured of a run: how it is called, its unit, how it is written.
 import {significant, count, mebibytes, percent} from './format.js';
 
-/** `scale` turns a value of the table into `unit`; `what` explains it. */
+/** `scale` turns a value of the table into `unit`; `short`: its name in a heading; `what` explains it. */
 export const MEASURES = [
-  {key: 'frame_s', name: 'frame time', unit: 's', scale: 1, format: significant, cost: true,
+  {key: 'frame_s', name: 'frame time', short: 'frame', unit: 's', scale: 1, format: significant, cost: true,
     what: 'time to render the frame, wall clock, median of the repeats'},
-  {key: 'cpu_s', name: 'CPU time', unit: 's', scale: 1, format: significant, cost: true,
+  {key: 'cpu_s', name: 'CPU time', short: 'CPU', unit: 's', scale: 1, format: significant, cost: true,
     what: 'processor time of all threads'},
-  {key: 'peak_bytes', name: 'peak memory', unit: 'MiB', scale: 2 ** -20, format: mebibytes, cost: true,
+  {key: 'peak_bytes', name: 'peak memory', short: 'memory', unit: 'MiB', scale: 2 ** -20, format: mebibytes, cost: true,
     what: 'most memory resident at once'},
-  {key: 'shaded_points', name: 'shaded points', unit: '', scale: 1, format: count, cost: true,
-    what: 'points at which shaders ran'},
-  {key: 'rays', name: 'rays', unit: '', scale: 1, format: count, cost: true, what: 'rays traced'},
-  {key: 'samples', name: 'samples', unit: '', scale: 1, format: count, what: 'visibility samples of the frame'},
-  {key: 'ste', name: 'STE', unit: '%', scale: 100, format: percent,
-    what: 'sample test efficiency: samples covered, of those tested against micropolygons'},
-  {key: 'rmse', name: 'RMSE', unit: '', scale: 1, format: significant, error: true,
-    what: 'root of the mean squared difference from the reference'},
-  {key: 'rel_mse', name: 'relMSE', unit: '', scale: 1, format: significant, error: true,
+  {key: 'rel_mse', name: 'relMSE', short: 'relMSE', unit: '', scale: 1, format: significant, error: true,
     what: 'mean of (a − b)² / (b² + 0.01), b the reference'},
-  {key: 'visible', name: 'visible', unit: '%', scale: 100, format: percent, error: true,
+  {key: 'rmse', name: 'RMSE', short: 'RMSE', unit: '', scale: 1, format: significant, error: true,
+    what: 'root of the mean squared difference from the reference'},
+  {key: 'visible', name: 'visible', short: 'visible', unit: '%', scale: 100, format: percent, error: true,
     what: 'pixels in which a viewer would see the difference'},
+  {key: 'shaded_points', name: 'shaded points', short: 'points', unit: '', scale: 1, format: count, cost: true,
+    what: 'points at which shaders ran'},
+  {key: 'rays', name: 'rays', short: 'rays', unit: '', scale: 1, format: count, cost: true, what: 'rays traced'},
+  {key: 'samples', name: 'samples', short: 'samples', unit: '', scale: 1, format: count, what: 'visibility samples of the frame'},
+  {key: 'ste', name: 'STE', short: 'STE', unit: '%', scale: 100, format: percent,
+    what: 'sample test efficiency: samples covered, of those tested against micropolygons'},
 ];
 
 export const COSTS = MEASURES.filter((measure) => measure.cost);

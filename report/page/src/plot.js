@@ -1,7 +1,7 @@
 // Error against cost, log-log: a series for each setting, the Pareto front, a reading of one run.
 import {select as pick} from 'd3-selection';
 import {curveStepAfter, line, symbol, symbolCircle, symbolCross, symbolDiamond, symbolSquare, symbolTriangle} from 'd3-shape';
-import {drawAxes, logScale} from './axes.js';
+import {drawAxes, hasPlace, logScale} from './axes.js';
 import {el, labelled, select} from './dom.js';
 import {COSTS, ERRORS, measure, title} from './measures.js';
 import {createReading} from './reading.js';
@@ -43,10 +43,10 @@ export function showPlot(root, table, state) {
     const width = Math.max(frame.clientWidth, 320);
     const box = {left: 64, right: width - 14, top: 12, bottom: HEIGHT - 46};
     const [xOf, yOf] = [measure(state.get('x')), measure(state.get('y'))];
+    const placed = (run) => hasPlace(run[xOf.key]) && hasPlace(run[yOf.key]);
     const runs = table.runs.filter((run) => run.ok);
-    const x = logScale(runs, xOf, box.left, box.right);
-    const y = logScale(runs, yOf, box.bottom, box.top);
-    const placed = (run) => x.place(run) !== null && y.place(run) !== null;
+    const x = logScale(runs.filter(placed), xOf, box.left, box.right);
+    const y = logScale(runs.filter(placed), yOf, box.bottom, box.top);
     const series = seriesOf(table, state.get('grouping')).map((one, index) => ({...one, ...styleOf(index)}));
 
     svg.attr('width', width).attr('height', HEIGHT).selectAll('*').remove();

@@ -15,7 +15,7 @@ export function createReading(table, state) {
 
   function show() {
     const run = table.runs.find((candidate) => candidate.id === state.get('read'));
-    name.textContent = run ? `${run.id}  ${run.label}${run.pareto ? '  · on the Pareto front' : ''}` : 'Point at a run to read it';
+    name.textContent = run ? `${run.id} ${run.label}${run.pareto ? '  · on the Pareto front' : ''}` : 'Point at a run to read it';
     options.textContent = run ? (run.options ?? []).join(' ') : 'click: image A; shift and click: image B';
     for (const [key, cell] of values) {
       cell.textContent = run ? written(MEASURES.find((of) => of.key === key), run) : '–';

@@ -9,7 +9,7 @@ const UNIT_NAMES = {s: 's', '%': '%', MiB: 'MiB'};
 const COLUMNS = [
   {key: 'id', name: 'run', what: 'number of the run', value: (run) => run.id, text: (run) => run.id},
   {key: 'label', name: 'settings', what: 'what was set; all else is as by default', value: (run) => run.label, text: (run) => run.label},
-  ...MEASURES.map((of) => ({...of, number: true, value: (run) => run[of.key], text: (run) => of.format(run[of.key])})),
+  ...MEASURES.map((of) => ({...of, name: of.short, number: true, value: (run) => run[of.key], text: (run) => of.format(run[of.key])})),
   {key: 'pareto', name: 'front', what: 'on the Pareto front of frame time and relMSE', value: (run) => (run.pareto ? 0 : 1), text: (run) => (run.pareto ? '●' : '')},
 ];
 
