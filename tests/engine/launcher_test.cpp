@@ -35,12 +35,14 @@ class Checkout {
  public:
   explicit Checkout(const std::string& name) : folder_(name) {
     for (const char* source : {"base", "images", "cameras", "scenes/examples", "dice", "hide",
-                               "shade", "rays", "reconstruct", "engine", "bench", "tests"}) {
+                               "shade", "rays", "reconstruct", "engine", "report", "bench",
+                               "tests"}) {
       folder_.write(std::string("checkout/") + source + "/part.cpp", "");
     }
     folder_.write("checkout/CMakeLists.txt", "");
     folder_.write("checkout/CMakePresets.json", "");
     folder_.write("checkout/cmake/packages.txt", "# a comment\nbash\n");
+    folder_.write("checkout/cmake/commands.txt", "# a comment\ncat: coreutils\n");
     fs::copy_file(TESSERA_SOURCE_DIR "/tessera", path("tessera"));
     tool("cmake", fake_cmake);
     tool("dpkg-query", fake_dpkg_query);
@@ -159,6 +161,16 @@ TEST_CASE("missing packages are installed and named") {
   CHECK(result.err.find("Installing Debian packages: bash") != std::string::npos);
   CHECK(checkout.calls("apt-get update") == 1);
   CHECK(checkout.calls("apt-get install -q -y") == 1);
+}
+
+TEST_CASE("the package of a command is installed when no such command is on the path") {
+  const Checkout checkout("tessera-launcher");
+  std::ofstream(checkout.path("cmake/commands.txt"))
+      << "# a comment\ncat: coreutils\nno-such-command-here: a-package\n";
+  const ProgramResult result = checkout.run({"render"});
+  CHECK(result.exit_code == 0);
+  CHECK(result.err.find("Installing Debian packages: a-package\n") != std::string::npos);
+  CHECK(checkout.calls("apt-get install -q -y --no-install-recommends a-package") == 1);
 }
 
 TEST_CASE("the script works through a symbolic link and from a moved checkout") {

@@ -3,7 +3,7 @@ import {extent} from 'd3-array';
 import {axisBottom, axisLeft} from 'd3-axis';
 import {scaleLog} from 'd3-scale';
 import {select} from 'd3-selection';
-import {significant} from './format.js';
+import {count, significant} from './format.js';
 
 const GUTTER = 26; // pixels at the low end for values that are zero
 const ZERO = 8; // pixels from the low end to those
@@ -13,7 +13,7 @@ export const hasPlace = (value) => typeof value === 'number' && value >= 0;
 
 /**
  * A scale for the values of `of` in `runs`, all of which have a place, from pixel `low` to pixel
- * `high`: {place(run), scale, zero: whether some value is 0, low}.
+ * `high`: {place(run), scale, zero: whether some value is 0, low, of}.
  */
 export function logScale(runs, of, low, high) {
   const values = runs.map((run) => run[of.key]);
@@ -23,7 +23,7 @@ export function logScale(runs, of, low, high) {
   const scale = scaleLog().domain(padded(positive)).range([start, high]);
   const place = (run) =>
     run[of.key] === 0 ? low + ZERO * Math.sign(high - low) : scale(run[of.key] * of.scale);
-  return {place, scale, zero, low};
+  return {place, scale, zero, low, of};
 }
 
 /** A tenth of the span around the values, and no less than a factor of 1.5 in all. */
@@ -47,8 +47,9 @@ function labelled(scale) {
   return ticks.filter((tick) => tick >= lowest && tick <= highest);
 }
 
-/** "0.002", "50", "2e6": as short as the number allows. */
-function tickText(value) {
+/** "0.002", "50", "300 k": as short as the number allows. */
+function tickText(of, value) {
+  if (of.format === count) return count(value);
   if (value >= 1e-4 && value < 1e5) return String(Number(value.toPrecision(3)));
   return significant(value, 3).replace(/\.?0+e/, 'e');
 }
@@ -63,9 +64,9 @@ function drawAxis(group, axis, zeroAt, horizontal) {
 
 /** Draws both axes with grid lines into two empty groups. `box`: {left, right, top, bottom}. */
 export function drawAxes(xGroup, yGroup, x, y, box) {
-  const bottom = axisBottom(x.scale).tickValues(labelled(x.scale)).tickFormat(tickText)
+  const bottom = axisBottom(x.scale).tickValues(labelled(x.scale)).tickFormat((value) => tickText(x.of, value))
     .tickSizeInner(-(box.bottom - box.top)).tickSizeOuter(0).tickPadding(8);
-  const left = axisLeft(y.scale).tickValues(labelled(y.scale)).tickFormat(tickText)
+  const left = axisLeft(y.scale).tickValues(labelled(y.scale)).tickFormat((value) => tickText(y.of, value))
     .tickSizeInner(-(box.right - box.left)).tickSizeOuter(0).tickPadding(8);
   drawAxis(xGroup, bottom, x.zero ? x.low + ZERO : null, true);
   drawAxis(yGroup, left, y.zero ? y.low - ZERO : null, false);

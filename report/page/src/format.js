@@ -32,7 +32,12 @@ export function count(value) {
 
 export const mebibytes = (value) => (isNumber(value) ? significant(value / 2 ** 20) : UNKNOWN);
 
-export const percent = (value) => (isNumber(value) ? significant(value * 100) : UNKNOWN);
+/** A share in percent, to 1e-4 at the finest: less is a part of a pixel. */
+export function percent(value) {
+  if (!isNumber(value)) return UNKNOWN;
+  const text = Math.abs(value) < 1e-4 ? (value * 100).toFixed(4).replace(/\.?0+$/, '') : significant(value * 100);
+  return text === '0' && value !== 0 ? '<0.0001' : text;
+}
 
 /** "+1.5", with a sign always. */
 export function stops(value) {

@@ -7,7 +7,7 @@ import {COSTS, ERRORS, measure, title} from './measures.js';
 import {createReading} from './reading.js';
 import {groupings, paretoFront, seriesOf} from './series.js';
 
-const HEIGHT = 400;
+const HEIGHT = 380;
 const REACH = 28; // pixels within which a pointer finds a point
 const SYMBOLS = [symbolCircle, symbolSquare, symbolTriangle, symbolDiamond, symbolCross];
 const COLOURS = 10; // custom properties --series-0 ... of style.css

@@ -10,7 +10,7 @@ export function createReading(table, state) {
   const values = new Map(SHOWN.map((key) => [key, el('dd', {'data-measure': key})]));
   const list = el('dl', {}, SHOWN.map((key) => {
     const of = MEASURES.find((candidate) => candidate.key === key);
-    return el('div', {title: of.what}, el('dt', {}, of.name), values.get(key));
+    return el('div', {title: of.what}, el('dt', {}, of.short), values.get(key));
   }));
 
   function show() {
