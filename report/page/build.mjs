@@ -7,7 +7,9 @@ import {fileURLToPath} from 'node:url';
 
 const OLDEST_NODE = 18;
 if (Number(process.versions.node.split('.')[0]) < OLDEST_NODE) {
-  console.error(`error: Node.js ${process.versions.node} is too old: ${OLDEST_NODE} is the oldest that will do`);
+  console.error(
+    `error: Node.js ${process.versions.node} is too old: ${OLDEST_NODE} is the oldest that will do`,
+  );
   process.exit(1);
 }
 
@@ -34,7 +36,8 @@ function bundle(entry, options = {}) {
 /** Replaces a marker that has to be there once; `content` is taken literally. */
 function put(html, marker, content) {
   const parts = html.split(marker);
-  if (parts.length !== 2) throw new Error(`index.html: expected ${marker} once, found it ${parts.length - 1} times`);
+  if (parts.length !== 2)
+    throw new Error(`index.html: expected ${marker} once, found it ${parts.length - 1} times`);
   return parts.join(content);
 }
 
@@ -62,7 +65,9 @@ html = put(html, '/*SCRIPT*/', bundle('main.js', {format: 'iife'}).trim());
 
 mkdirSync(folder, {recursive: true});
 writeFileSync(join(folder, 'page.html'), html);
-writeFileSync(join(folder, 'page_template.cpp'), `// Generated from report/page/.
+writeFileSync(
+  join(folder, 'page_template.cpp'),
+  `// Generated from report/page/.
 #include "report/page_template.h"
 
 namespace tessera {
@@ -74,4 +79,5 @@ ${cppLiteral(html)};
 }
 
 }  // namespace tessera
-`);
+`,
+);

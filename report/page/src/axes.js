@@ -49,7 +49,7 @@ function labelled(scale) {
 
 /** "0.002", "50", "300 k": as short as the number allows. */
 function tickText(of, value) {
-  if (of.format === count) return count(value);
+  if (of.format === count) return count(value).replace(/\.?0+(?= )/, '');
   if (value >= 1e-4 && value < 1e5) return String(Number(value.toPrecision(3)));
   return significant(value, 3).replace(/\.?0+e/, 'e');
 }
@@ -57,17 +57,31 @@ function tickText(of, value) {
 function drawAxis(group, axis, zeroAt, horizontal) {
   select(group).call(axis);
   if (zeroAt === null) return;
-  select(group).append('text').attr('class', 'zero').text('0').attr('fill', 'currentColor')
-    .attr(horizontal ? 'x' : 'y', zeroAt).attr(horizontal ? 'y' : 'x', horizontal ? 9 : -9)
-    .attr('dy', horizontal ? '0.71em' : '0.32em').attr('text-anchor', horizontal ? 'middle' : 'end');
+  select(group)
+    .append('text')
+    .attr('class', 'zero')
+    .text('0')
+    .attr('fill', 'currentColor')
+    .attr(horizontal ? 'x' : 'y', zeroAt)
+    .attr(horizontal ? 'y' : 'x', horizontal ? 9 : -9)
+    .attr('dy', horizontal ? '0.71em' : '0.32em')
+    .attr('text-anchor', horizontal ? 'middle' : 'end');
 }
 
 /** Draws both axes with grid lines into two empty groups. `box`: {left, right, top, bottom}. */
 export function drawAxes(xGroup, yGroup, x, y, box) {
-  const bottom = axisBottom(x.scale).tickValues(labelled(x.scale)).tickFormat((value) => tickText(x.of, value))
-    .tickSizeInner(-(box.bottom - box.top)).tickSizeOuter(0).tickPadding(8);
-  const left = axisLeft(y.scale).tickValues(labelled(y.scale)).tickFormat((value) => tickText(y.of, value))
-    .tickSizeInner(-(box.right - box.left)).tickSizeOuter(0).tickPadding(8);
+  const bottom = axisBottom(x.scale)
+    .tickValues(labelled(x.scale))
+    .tickFormat((value) => tickText(x.of, value))
+    .tickSizeInner(-(box.bottom - box.top))
+    .tickSizeOuter(0)
+    .tickPadding(8);
+  const left = axisLeft(y.scale)
+    .tickValues(labelled(y.scale))
+    .tickFormat((value) => tickText(y.of, value))
+    .tickSizeInner(-(box.right - box.left))
+    .tickSizeOuter(0)
+    .tickPadding(8);
   drawAxis(xGroup, bottom, x.zero ? x.low + ZERO : null, true);
   drawAxis(yGroup, left, y.zero ? y.low - ZERO : null, false);
 }

@@ -7,14 +7,17 @@ export const NOT_FINITE = [255, 0, 255];
 /** sRGB code 0..255 of a linear value, IEC 61966-2-1. */
 export function srgbCode(linear) {
   if (!(linear > 0)) return 0;
-  const code = linear <= 0.0031308 ? 12.92 * linear : 1.055 * Math.min(linear, 1) ** (1 / 2.4) - 0.055;
+  const code =
+    linear <= 0.0031308 ? 12.92 * linear : 1.055 * Math.min(linear, 1) ** (1 / 2.4) - 0.055;
   return Math.round(255 * Math.min(code, 1));
 }
 
 /** Codes of all halves at an exposure in stops; -1 where there is no finite value. */
 function codesOfHalves(exposure) {
   const gain = 2 ** exposure;
-  return Int16Array.from(HALF_VALUES, (value) => (Number.isFinite(value) ? srgbCode(value * gain) : -1));
+  return Int16Array.from(HALF_VALUES, (value) =>
+    Number.isFinite(value) ? srgbCode(value * gain) : -1,
+  );
 }
 
 export function paintColour(image, exposure, bytes) {
@@ -41,15 +44,33 @@ function ramp(stops) {
   const table = Array.from({length: 1024}, (_, i) => {
     const place = (i / 1023) * (stops.length - 1);
     const from = Math.min(Math.floor(place), stops.length - 2);
-    return stops[from].map((value, c) => Math.round(value + (stops[from + 1][c] - value) * (place - from)));
+    return stops[from].map((value, c) =>
+      Math.round(value + (stops[from + 1][c] - value) * (place - from)),
+    );
   });
   return (position) => table[Math.round(1023 * Math.min(Math.max(position, 0), 1))];
 }
 
 /** Black over purple and orange to pale yellow, as the renderer's heat maps; L* rises evenly. */
-export const HEAT = ramp([[0, 0, 0], [51, 18, 107], [133, 33, 115], [214, 71, 66], [247, 140, 26], [250, 204, 64], [255, 255, 184]]);
+export const HEAT = ramp([
+  [0, 0, 0],
+  [51, 18, 107],
+  [133, 33, 115],
+  [214, 71, 66],
+  [247, 140, 26],
+  [250, 204, 64],
+  [255, 255, 184],
+]);
 /** Black at zero; below it blue to pale cyan, above it red to pale yellow. */
-export const SIGNED = ramp([[190, 245, 255], [60, 160, 245], [25, 70, 170], [0, 0, 0], [165, 45, 25], [245, 135, 30], [255, 240, 170]]);
+export const SIGNED = ramp([
+  [190, 245, 255],
+  [60, 160, 245],
+  [25, 70, 170],
+  [0, 0, 0],
+  [165, 45, 25],
+  [245, 135, 30],
+  [255, 240, 170],
+]);
 
 /**
  * Errors of `image` against `reference`, a number a pixel; NaN where either is not finite.

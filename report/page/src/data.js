@@ -5,12 +5,20 @@ const elementText = (id) => document.getElementById(id)?.textContent ?? '';
 /** The trade table, with what may be missing from it filled in. */
 export function readTable() {
   const table = JSON.parse(elementText('trade-table') || '{}');
-  return {...table, runs: table.runs ?? [], knobs: table.knobs ?? [], words: table.words ?? [],
-    tables: table.tables ?? [], machine: table.machine ?? {}, reference: table.reference ?? {}};
+  return {
+    ...table,
+    runs: table.runs ?? [],
+    knobs: table.knobs ?? [],
+    words: table.words ?? [],
+    tables: table.tables ?? [],
+    machine: table.machine ?? {},
+    reference: table.reference ?? {},
+  };
 }
 
 /** What is embedded: {images: key -> {element, width, height, kind}, left_out, budget_bytes}. */
-export const readCatalogue = () => JSON.parse(elementText('trade-images') || '{"images": {}, "left_out": []}');
+export const readCatalogue = () =>
+  JSON.parse(elementText('trade-images') || '{"images": {}, "left_out": []}');
 
 /** Every half float as a number, by its bits. */
 export const HALF_VALUES = Float32Array.from({length: 65536}, (_, bits) => {

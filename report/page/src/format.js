@@ -18,6 +18,13 @@ export function significant(value, digits = 3) {
   return text.replaceAll('-', MINUS);
 }
 
+/** Three digits, or what it is if no number: for values of pixels. */
+export function pixelValue(value) {
+  if (Number.isNaN(value)) return 'NaN';
+  if (!Number.isFinite(value)) return value > 0 ? '∞' : `${MINUS}∞`;
+  return significant(value);
+}
+
 /** With the prefixes k, M, G, T: counts of rays, of points. */
 export function count(value) {
   if (!isNumber(value)) return UNKNOWN;
@@ -35,11 +42,19 @@ export const mebibytes = (value) => (isNumber(value) ? significant(value / 2 ** 
 /** A share in percent, to 1e-4 at the finest: less is a part of a pixel. */
 export function percent(value) {
   if (!isNumber(value)) return UNKNOWN;
-  const text = Math.abs(value) < 1e-4 ? (value * 100).toFixed(4).replace(/\.?0+$/, '') : significant(value * 100);
+  const text =
+    Math.abs(value) < 1e-4
+      ? (value * 100).toFixed(4).replace(/\.?0+$/, '')
+      : significant(value * 100);
   return text === '0' && value !== 0 ? '<0.0001' : text;
 }
 
 /** "+1.5", with a sign always. */
 export function stops(value) {
-  return (value > 0 ? '+' : value < 0 ? MINUS : '±') + Math.abs(value).toFixed(2).replace(/\.?0+$/, '');
+  return (
+    (value > 0 ? '+' : value < 0 ? MINUS : '±') +
+    Math.abs(value)
+      .toFixed(2)
+      .replace(/\.?0+$/, '')
+  );
 }

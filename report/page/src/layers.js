@@ -1,10 +1,22 @@
 // The two pictures of the comparison: what a side shows, painted at the image's own size.
 import {HALF_VALUES} from './data.js';
-import {HEAT, SIGNED, heatPosition, heatScale, paintColour, paintScalar, relativeErrors} from './colour.js';
-import {significant} from './format.js';
+import {
+  HEAT,
+  SIGNED,
+  heatPosition,
+  heatScale,
+  paintColour,
+  paintScalar,
+  relativeErrors,
+} from './colour.js';
+import {pixelValue} from './format.js';
 import {REFERENCE} from './state.js';
 
-export const HEAT_UNITS = {tests: 'tests per pixel', shading: 'points shaded per pixel', extra: 'extra samples per pixel'};
+export const HEAT_UNITS = {
+  tests: 'tests per pixel',
+  shading: 'points shaded per pixel',
+  extra: 'extra samples per pixel',
+};
 
 const ERRORS = {signed: 'relative error, signed', absolute: 'relative error, absolute'};
 
@@ -12,7 +24,11 @@ const ERRORS = {signed: 'relative error, signed', absolute: 'relative error, abs
 export function viewsOf(run, images) {
   const maps = Object.keys(run?.heatmaps ?? {}).filter((name) => images.has(heatKey(run, name)));
   const errors = run && images.has(run.image) ? Object.entries(ERRORS) : [];
-  return [['picture', 'picture'], ...errors, ...maps.map((name) => [`heat:${name}`, `heat map: ${name}`])];
+  return [
+    ['picture', 'picture'],
+    ...errors,
+    ...maps.map((name) => [`heat:${name}`, `heat map: ${name}`]),
+  ];
 }
 
 const heatKey = (run, name) => `${run.heatmaps[name]}#${name}`;
@@ -32,7 +48,8 @@ export async function gather(id, view, table, images) {
   const name = id === REFERENCE ? 'reference' : run ? `${run.id} ${run.label}` : 'nothing';
   const image = await images.load(id === REFERENCE ? table.reference.file : run?.image);
   const side = {view, name, image};
-  if (view.startsWith('heat:')) return {...side, map: await images.load(heatKey(run, view.slice(5)))};
+  if (view.startsWith('heat:'))
+    return {...side, map: await images.load(heatKey(run, view.slice(5)))};
   if (!image) return {...side, problem: 'This image is not in the page.'};
   if (!ERRORS[view]) return side;
   const reference = await images.load(table.reference.file);
@@ -52,8 +69,12 @@ function painted({width, height}, paint) {
 }
 
 function pictureLayer({image}, {exposure}) {
-  const read = (i) => image.planes.map((plane) => significant(HALF_VALUES[plane[i]])).join('  ');
-  return {picture: painted(image, (bytes) => paintColour(image, exposure, bytes)), read, legend: {kind: 'picture', exposure}};
+  const read = (i) => image.planes.map((plane) => pixelValue(HALF_VALUES[plane[i]])).join('  ');
+  return {
+    picture: painted(image, (bytes) => paintColour(image, exposure, bytes)),
+    read,
+    legend: {kind: 'picture', exposure},
+  };
 }
 
 function errorLayer({image, reference, view}, {range}) {
@@ -61,15 +82,26 @@ function errorLayer({image, reference, view}, {range}) {
   const signed = view === 'signed';
   const position = signed ? (value) => 0.5 + value / (2 * range) : (value) => value / range;
   const ramp = signed ? SIGNED : HEAT;
-  return {picture: painted(image, (bytes) => paintScalar(values, position, ramp, bytes)),
-    read: (i) => significant(values[i]), legend: {kind: view, range, ramp}};
+  return {
+    picture: painted(image, (bytes) => paintScalar(values, position, ramp, bytes)),
+    read: (i) => pixelValue(values[i]),
+    legend: {kind: view, range, ramp},
+  };
 }
 
 function heatLayer({map, view}, scale) {
   const position = heatPosition(scale);
-  return {picture: painted(map, (bytes) => paintScalar(map.values, position, HEAT, bytes)),
-    read: (i) => significant(map.values[i]),
-    legend: {kind: 'heat', ramp: HEAT, scale, position, unit: HEAT_UNITS[view.slice(5)] ?? view.slice(5)}};
+  return {
+    picture: painted(map, (bytes) => paintScalar(map.values, position, HEAT, bytes)),
+    read: (i) => pixelValue(map.values[i]),
+    legend: {
+      kind: 'heat',
+      ramp: HEAT,
+      scale,
+      position,
+      unit: HEAT_UNITS[view.slice(5)] ?? view.slice(5),
+    },
+  };
 }
 
 /**
@@ -78,11 +110,21 @@ function heatLayer({map, view}, scale) {
  */
 export function paintLayers(sides, settings) {
   return sides.map((side) => {
-    if (side.problem || (!side.image && !side.map)) return {name: side.name, problem: side.problem ?? 'This image is not in the page.'};
+    if (side.problem || (!side.image && !side.map))
+      return {name: side.name, problem: side.problem ?? 'This image is not in the page.'};
     const {width, height} = side.map ?? side.image;
     const layer = side.map
-      ? heatLayer(side, heatScale(sides.filter((other) => other.map && other.view === side.view).map((other) => other.map)))
-      : side.reference ? errorLayer(side, settings) : pictureLayer(side, settings);
+      ? heatLayer(
+          side,
+          heatScale(
+            sides
+              .filter((other) => other.map && other.view === side.view)
+              .map((other) => other.map),
+          ),
+        )
+      : side.reference
+        ? errorLayer(side, settings)
+        : pictureLayer(side, settings);
     return {name: side.name, width, height, ...layer};
   });
 }

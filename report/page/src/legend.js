@@ -3,16 +3,27 @@ import {el} from './dom.js';
 import {significant, stops} from './format.js';
 
 function gradient(ramp, from = 0) {
-  const colours = Array.from({length: 25}, (_, i) => `rgb(${ramp(from + ((1 - from) * i) / 24).join(' ')})`);
+  const colours = Array.from(
+    {length: 25},
+    (_, i) => `rgb(${ramp(from + ((1 - from) * i) / 24).join(' ')})`,
+  );
   return `linear-gradient(to right, ${colours.join(', ')})`;
 }
 
 /** A bar with ticks: [position in 0..1, text]. */
 function scaleBar(ramp, ticks) {
-  return el('div', {class: 'scale'},
+  return el(
+    'div',
+    {class: 'scale'},
     el('div', {class: 'bar', style: `background: ${gradient(ramp)}`}),
-    el('div', {class: 'ticks'}, ticks.map(([position, text]) =>
-      el('span', {style: `left: ${(position * 100).toFixed(2)}%`}, text))));
+    el(
+      'div',
+      {class: 'ticks'},
+      ticks.map(([position, text]) =>
+        el('span', {style: `left: ${(position * 100).toFixed(2)}%`}, text),
+      ),
+    ),
+  );
 }
 
 const asPercent = (value) => `${significant(value * 100, 2).replace(/\.0$/, '')} %`;
@@ -21,22 +32,47 @@ function heatTicks({scale, position}) {
   if (!(scale.highest > 0)) return [[0, '0']];
   const ticks = [[0, '0']];
   const middle = Math.sqrt(scale.lowest * scale.highest);
-  for (const value of new Set([scale.lowest, middle, scale.highest])) ticks.push([position(value), significant(value)]);
+  for (const value of new Set([scale.lowest, middle, scale.highest]))
+    ticks.push([position(value), significant(value)]);
   return ticks;
 }
 
 const CONTENT = {
-  picture: ({exposure}) => [el('p', {}, `linear R G B as sRGB, exposure ${stops(exposure)} EV; magenta: not a number, or infinite`)],
-  signed: ({range, ramp}) => [el('p', {}, 'mean of (a − r) / √(r² + 0.01), r the reference'),
-    scaleBar(ramp, [[0, `−${asPercent(range)}`], [0.5, '0'], [1, `+${asPercent(range)}`]])],
-  absolute: ({range, ramp}) => [el('p', {}, 'root of the mean of (a − r)² / (r² + 0.01)'),
-    scaleBar(ramp, [[0, '0'], [0.5, asPercent(range / 2)], [1, `≥ ${asPercent(range)}`]])],
-  heat: (legend) => [el('p', {}, `${legend.unit}, logarithmic; mean ${significant(legend.scale.mean)}`),
-    scaleBar(legend.ramp, heatTicks(legend))],
+  picture: ({exposure}) => [
+    el(
+      'p',
+      {},
+      `linear R G B as sRGB, exposure ${stops(exposure)} EV; magenta: not a number, or infinite`,
+    ),
+  ],
+  signed: ({range, ramp}) => [
+    el('p', {}, 'mean of (a − r) / √(r² + 0.01), r the reference'),
+    scaleBar(ramp, [
+      [0, `−${asPercent(range)}`],
+      [0.5, '0'],
+      [1, `+${asPercent(range)}`],
+    ]),
+  ],
+  absolute: ({range, ramp}) => [
+    el('p', {}, 'root of the mean of (a − r)² / (r² + 0.01)'),
+    scaleBar(ramp, [
+      [0, '0'],
+      [0.5, asPercent(range / 2)],
+      [1, `≥ ${asPercent(range)}`],
+    ]),
+  ],
+  heat: (legend) => [
+    el('p', {}, `${legend.unit}, logarithmic; mean ${significant(legend.scale.mean)}`),
+    scaleBar(legend.ramp, heatTicks(legend)),
+  ],
 };
 
 /** Shows the legend of `layer` in `root`. */
 export function showLegend(root, letter, layer) {
-  root.replaceChildren(el('b', {title: layer.name}, `${letter}  ${layer.name}`),
-    ...(layer.problem ? [el('p', {class: 'problem'}, layer.problem)] : CONTENT[layer.legend.kind](layer.legend)));
+  root.replaceChildren(
+    el('b', {title: layer.name}, `${letter}  ${layer.name}`),
+    ...(layer.problem
+      ? [el('p', {class: 'problem'}, layer.problem)]
+      : CONTENT[layer.legend.kind](layer.legend)),
+  );
 }

@@ -19,8 +19,16 @@ function firstRun() {
 }
 
 const state = createState({
-  x: 'frame_s', y: 'rel_mse', grouping: '', read: null,
-  a: firstRun()?.id ?? null, b: REFERENCE, viewA: 'picture', viewB: 'picture', exposure: 0, range: 0.3,
+  x: 'frame_s',
+  y: 'rel_mse',
+  grouping: '',
+  read: null,
+  a: firstRun()?.id ?? null,
+  b: REFERENCE,
+  viewA: 'picture',
+  viewB: 'picture',
+  exposure: 0,
+  range: 0.3,
 });
 
 showSummary(document.getElementById('summary'), table);

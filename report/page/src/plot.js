@@ -1,6 +1,15 @@
 // Error against cost, log-log: a series for each setting, the Pareto front, a reading of one run.
 import {select as pick} from 'd3-selection';
-import {curveStepAfter, line, symbol, symbolCircle, symbolCross, symbolDiamond, symbolSquare, symbolTriangle} from 'd3-shape';
+import {
+  curveStepAfter,
+  line,
+  symbol,
+  symbolCircle,
+  symbolCross,
+  symbolDiamond,
+  symbolSquare,
+  symbolTriangle,
+} from 'd3-shape';
 import {drawAxes, hasPlace, logScale} from './axes.js';
 import {el, labelled, select} from './dom.js';
 import {COSTS, ERRORS, measure, title} from './measures.js';
@@ -20,24 +29,43 @@ function styleOf(index) {
 }
 
 export function showPlot(root, table, state) {
-  const svg = pick(el('div')).append('svg').attr('role', 'group').attr('aria-label', 'Plot of the runs');
+  const svg = pick(el('div'))
+    .append('svg')
+    .attr('role', 'group')
+    .attr('aria-label', 'Plot of the runs');
   const frame = el('div', {class: 'plot-frame', style: `height:${HEIGHT}px`}, svg.node());
   const legend = el('div', {class: 'legend'});
   const note = el('p', {class: 'note'});
   const hidden = new Set();
   let points = [];
 
-  const axisSelect = (name, choices) => select(`${name} axis`, choices.map((of) => [of.key, title(of)]),
-    state.get(name), (value) => state.set({[name]: value}));
+  const axisSelect = (name, choices) =>
+    select(
+      `${name} axis`,
+      choices.map((of) => [of.key, title(of)]),
+      state.get(name),
+      (value) => state.set({[name]: value}),
+    );
   root.append(
     el('h2', {}, 'Error against cost'),
-    el('div', {class: 'controls'},
-      labelled('across', axisSelect('x', COSTS)), labelled('up', axisSelect('y', ERRORS)),
-      labelled('colours', select('Colours', groupings(table), '', (value) => {
-        hidden.clear();
-        state.set({grouping: value});
-      }))),
-    frame, legend, createReading(table, state), note);
+    el(
+      'div',
+      {class: 'controls'},
+      labelled('across', axisSelect('x', COSTS)),
+      labelled('up', axisSelect('y', ERRORS)),
+      labelled(
+        'colours',
+        select('Colours', groupings(table), '', (value) => {
+          hidden.clear();
+          state.set({grouping: value});
+        }),
+      ),
+    ),
+    frame,
+    legend,
+    createReading(table, state),
+    note,
+  );
 
   function draw() {
     const width = Math.max(frame.clientWidth, 320);
@@ -47,30 +75,55 @@ export function showPlot(root, table, state) {
     const runs = table.runs.filter((run) => run.ok);
     const x = logScale(runs.filter(placed), xOf, box.left, box.right);
     const y = logScale(runs.filter(placed), yOf, box.bottom, box.top);
-    const series = seriesOf(table, state.get('grouping')).map((one, index) => ({...one, ...styleOf(index)}));
+    const series = seriesOf(table, state.get('grouping')).map((one, index) => ({
+      ...one,
+      ...styleOf(index),
+    }));
 
     svg.attr('width', width).attr('height', HEIGHT).selectAll('*').remove();
-    const axes = [0, 1].map((axis) => svg.append('g').attr('class', 'axis')
-      .attr('transform', axis === 0 ? `translate(0,${box.bottom})` : `translate(${box.left},0)`).node());
+    const axes = [0, 1].map((axis) =>
+      svg
+        .append('g')
+        .attr('class', 'axis')
+        .attr('transform', axis === 0 ? `translate(0,${box.bottom})` : `translate(${box.left},0)`)
+        .node(),
+    );
     drawAxes(axes[0], axes[1], x, y, box);
-    svg.append('text').attr('class', 'axis-title').attr('x', (box.left + box.right) / 2)
-      .attr('y', HEIGHT - 6).attr('text-anchor', 'middle').text(title(xOf));
-    svg.append('text').attr('class', 'axis-title').attr('text-anchor', 'middle')
-      .attr('transform', `translate(13,${(box.top + box.bottom) / 2}) rotate(-90)`).text(title(yOf));
+    svg
+      .append('text')
+      .attr('class', 'axis-title')
+      .attr('x', (box.left + box.right) / 2)
+      .attr('y', HEIGHT - 6)
+      .attr('text-anchor', 'middle')
+      .text(title(xOf));
+    svg
+      .append('text')
+      .attr('class', 'axis-title')
+      .attr('text-anchor', 'middle')
+      .attr('transform', `translate(13,${(box.top + box.bottom) / 2}) rotate(-90)`)
+      .text(title(yOf));
 
     drawFront(frontOf(runs.filter(placed), xOf.key, yOf.key), x, y, box);
     const visible = series.filter((one) => !hidden.has(one.name));
     const path = line(x.place, y.place);
     for (const one of visible) {
       for (const joined of one.lines) {
-        svg.append('path').attr('class', 'series-line').attr('d', path(joined.filter(placed))).style('stroke', one.colour);
+        svg
+          .append('path')
+          .attr('class', 'series-line')
+          .attr('d', path(joined.filter(placed)))
+          .style('stroke', one.colour);
       }
     }
-    points = visible.flatMap((one) => one.runs.filter(placed).map((run) => ({run, one, x: x.place(run), y: y.place(run)})));
+    points = visible.flatMap((one) =>
+      one.runs.filter(placed).map((run) => ({run, one, x: x.place(run), y: y.place(run)})),
+    );
     drawPoints();
     drawLegend(series);
     const missing = runs.length - runs.filter(placed).length;
-    note.textContent = missing ? `${missing} of ${runs.length} runs have no value on these axes and are not shown.` : '';
+    note.textContent = missing
+      ? `${missing} of ${runs.length} runs have no value on these axes and are not shown.`
+      : '';
     mark();
   }
 
@@ -89,11 +142,18 @@ export function showPlot(root, table, state) {
   }
 
   function drawPoints() {
-    svg.append('g').selectAll('path').data(points).join('path')
-      .attr('class', 'point').attr('d', (point) => point.one.shape)
+    svg
+      .append('g')
+      .selectAll('path')
+      .data(points)
+      .join('path')
+      .attr('class', 'point')
+      .attr('d', (point) => point.one.shape)
       .attr('transform', (point) => `translate(${point.x},${point.y})`)
       .style('fill', (point) => point.one.colour)
-      .attr('tabindex', 0).attr('role', 'button').attr('data-run', (point) => point.run.id)
+      .attr('tabindex', 0)
+      .attr('role', 'button')
+      .attr('data-run', (point) => point.run.id)
       .attr('aria-label', (point) => `run ${point.run.id}: ${point.run.label}`)
       .on('focus', (_, point) => state.set({read: point.run.id}))
       .on('keydown', (event, point) => {
@@ -108,15 +168,36 @@ export function showPlot(root, table, state) {
   }
 
   function drawLegend(series) {
-    legend.replaceChildren(el('span', {class: 'key front-key'}, 'Pareto front'), ...series.map((one) => {
-      const icon = pick(el('span')).append('svg').attr('width', 12).attr('height', 12).attr('aria-hidden', 'true');
-      icon.append('path').attr('d', one.shape).attr('transform', 'translate(6,6)').style('fill', one.colour);
-      return el('button', {type: 'button', class: 'key', 'aria-pressed': String(!hidden.has(one.name)),
-        title: 'Show or hide this series', onclick: () => {
-          if (!hidden.delete(one.name)) hidden.add(one.name);
-          draw();
-        }}, icon.node(), one.name);
-    }));
+    legend.replaceChildren(
+      el('span', {class: 'key front-key'}, 'Pareto front'),
+      ...series.map((one) => {
+        const icon = pick(el('span'))
+          .append('svg')
+          .attr('width', 12)
+          .attr('height', 12)
+          .attr('aria-hidden', 'true');
+        icon
+          .append('path')
+          .attr('d', one.shape)
+          .attr('transform', 'translate(6,6)')
+          .style('fill', one.colour);
+        return el(
+          'button',
+          {
+            type: 'button',
+            class: 'key',
+            'aria-pressed': String(!hidden.has(one.name)),
+            title: 'Show or hide this series',
+            onclick: () => {
+              if (!hidden.delete(one.name)) hidden.add(one.name);
+              draw();
+            },
+          },
+          icon.node(),
+          one.name,
+        );
+      }),
+    );
   }
 
   /** Rings around the run that is read and the two that are compared. */
@@ -125,19 +206,34 @@ export function showPlot(root, table, state) {
     marks.selectAll('*').remove();
     const at = (id) => points.find((point) => point.run.id === id);
     const read = at(state.get('read'));
-    if (read) marks.append('circle').attr('class', 'read').attr('cx', read.x).attr('cy', read.y).attr('r', 9);
+    if (read)
+      marks
+        .append('circle')
+        .attr('class', 'read')
+        .attr('cx', read.x)
+        .attr('cy', read.y)
+        .attr('r', 9);
     for (const side of ['a', 'b']) {
       const point = at(state.get(side));
       if (!point) continue;
-      marks.append('text').attr('class', 'side').attr('x', point.x + (side === 'a' ? -8 : 8)).attr('y', point.y - 8)
-        .attr('text-anchor', side === 'a' ? 'end' : 'start').text(side.toUpperCase());
+      marks
+        .append('text')
+        .attr('class', 'side')
+        .attr('x', point.x + (side === 'a' ? -8 : 8))
+        .attr('y', point.y - 8)
+        .attr('text-anchor', side === 'a' ? 'end' : 'start')
+        .text(side.toUpperCase());
     }
   }
 
   function nearest(event) {
     const bounds = svg.node().getBoundingClientRect();
-    const distance = (point) => Math.hypot(point.x - (event.clientX - bounds.left), point.y - (event.clientY - bounds.top));
-    const best = points.reduce((found, point) => (!found || distance(point) < distance(found) ? point : found), null);
+    const distance = (point) =>
+      Math.hypot(point.x - (event.clientX - bounds.left), point.y - (event.clientY - bounds.top));
+    const best = points.reduce(
+      (found, point) => (!found || distance(point) < distance(found) ? point : found),
+      null,
+    );
     return best && distance(best) <= REACH ? best : null;
   }
 

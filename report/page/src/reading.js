@@ -2,23 +2,45 @@
 import {el} from './dom.js';
 import {MEASURES, written} from './measures.js';
 
-const SHOWN = ['frame_s', 'cpu_s', 'peak_bytes', 'shaded_points', 'rays', 'rel_mse', 'rmse', 'visible'];
+const SHOWN = [
+  'frame_s',
+  'cpu_s',
+  'peak_bytes',
+  'shaded_points',
+  'rays',
+  'rel_mse',
+  'rmse',
+  'visible',
+];
 
 export function createReading(table, state) {
   const name = el('div', {class: 'reading-name'});
   const options = el('code', {class: 'reading-options'});
   const values = new Map(SHOWN.map((key) => [key, el('dd', {'data-measure': key})]));
-  const list = el('dl', {}, SHOWN.map((key) => {
-    const of = MEASURES.find((candidate) => candidate.key === key);
-    return el('div', {title: of.what}, el('dt', {}, of.short), values.get(key));
-  }));
+  const list = el(
+    'dl',
+    {},
+    SHOWN.map((key) => {
+      const of = MEASURES.find((candidate) => candidate.key === key);
+      return el('div', {title: of.what}, el('dt', {}, of.short), values.get(key));
+    }),
+  );
 
   function show() {
     const run = table.runs.find((candidate) => candidate.id === state.get('read'));
-    name.textContent = run ? `${run.id} ${run.label}${run.pareto ? '  · on the Pareto front' : ''}` : 'Point at a run to read it';
-    options.textContent = run ? (run.options ?? []).join(' ') : 'click: image A; shift and click: image B';
+    name.textContent = run
+      ? `${run.id} ${run.label}${run.pareto ? '  · on the Pareto front' : ''}`
+      : 'Point at a run to read it';
+    options.textContent = run
+      ? (run.options ?? []).join(' ')
+      : 'click: image A; shift and click: image B';
     for (const [key, cell] of values) {
-      cell.textContent = run ? written(MEASURES.find((of) => of.key === key), run) : '–';
+      cell.textContent = run
+        ? written(
+            MEASURES.find((of) => of.key === key),
+            run,
+          )
+        : '–';
     }
   }
   state.listen(['read'], show);

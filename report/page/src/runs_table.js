@@ -7,10 +7,34 @@ import {MEASURES} from './measures.js';
 const UNIT_NAMES = {s: 's', '%': '%', MiB: 'MiB'};
 
 const COLUMNS = [
-  {key: 'id', name: 'run', what: 'number of the run', value: (run) => run.id, text: (run) => run.id},
-  {key: 'label', name: 'settings', what: 'what was set; all else is as by default', value: (run) => run.label, text: (run) => run.label},
-  ...MEASURES.map((of) => ({...of, name: of.short, number: true, value: (run) => run[of.key], text: (run) => of.format(run[of.key])})),
-  {key: 'pareto', name: 'front', what: 'on the Pareto front of frame time and relMSE', value: (run) => (run.pareto ? 0 : 1), text: (run) => (run.pareto ? '●' : '')},
+  {
+    key: 'id',
+    name: 'run',
+    what: 'number of the run',
+    value: (run) => run.id,
+    text: (run) => run.id,
+  },
+  {
+    key: 'label',
+    name: 'settings',
+    what: 'what was set; all else is as by default',
+    value: (run) => run.label,
+    text: (run) => run.label,
+  },
+  ...MEASURES.map((of) => ({
+    ...of,
+    name: of.short,
+    number: true,
+    value: (run) => run[of.key],
+    text: (run) => of.format(run[of.key]),
+  })),
+  {
+    key: 'pareto',
+    name: 'front',
+    what: 'on the Pareto front of frame time and relMSE',
+    value: (run) => (run.pareto ? 0 : 1),
+    text: (run) => (run.pareto ? '●' : ''),
+  },
 ];
 
 /** Numbers by size, text with its numbers by size ("spp=4" before "spp=16"); unknown ones last. */
@@ -23,10 +47,19 @@ function compare(a, b, direction) {
 
 function cells(run) {
   if (run.ok) {
-    return COLUMNS.map((column) => el('td', {class: column.number ? 'number' : column.key}, column.text(run)));
+    return COLUMNS.map((column) =>
+      el('td', {class: column.number ? 'number' : column.key}, column.text(run)),
+    );
   }
-  return [el('td', {class: 'id'}, run.id), el('td', {class: 'label'}, run.label),
-    el('td', {class: 'failure', colspan: COLUMNS.length - 2}, `failed: ${run.error || 'no message'}`)];
+  return [
+    el('td', {class: 'id'}, run.id),
+    el('td', {class: 'label'}, run.label),
+    el(
+      'td',
+      {class: 'failure', colspan: COLUMNS.length - 2},
+      `failed: ${run.error || 'no message'}`,
+    ),
+  ];
 }
 
 export function showRuns(root, table, images, state) {
@@ -36,17 +69,47 @@ export function showRuns(root, table, images, state) {
   let sorted = {column: null, direction: 1};
 
   function row(run) {
-    const side = (name) => el('button', {type: 'button', class: 'side-button', 'data-side': name,
-      title: `Show as image ${name.toUpperCase()}`, disabled: !images.has(run.image),
-      onclick: () => state.set({[name]: run.id})}, name.toUpperCase());
-    return el('tr', {'data-run': run.id, class: run.ok ? null : 'failed', onpointerenter: () => state.set({read: run.id})},
-      el('td', {class: 'sides'}, run.ok ? [side('a'), side('b')] : UNKNOWN), cells(run));
+    const side = (name) =>
+      el(
+        'button',
+        {
+          type: 'button',
+          class: 'side-button',
+          'data-side': name,
+          title: `Show as image ${name.toUpperCase()}`,
+          disabled: !images.has(run.image),
+          onclick: () => state.set({[name]: run.id}),
+        },
+        name.toUpperCase(),
+      );
+    return el(
+      'tr',
+      {
+        'data-run': run.id,
+        class: run.ok ? null : 'failed',
+        onpointerenter: () => state.set({read: run.id}),
+      },
+      el('td', {class: 'sides'}, run.ok ? [side('a'), side('b')] : UNKNOWN),
+      cells(run),
+    );
   }
 
   function header(column) {
-    return el('th', {scope: 'col', 'aria-sort': 'none', class: column.number ? 'number' : column.key, 'data-column': column.key},
-      el('button', {type: 'button', title: column.what, onclick: () => sort(column)}, column.name,
-        UNIT_NAMES[column.unit] ? el('small', {}, UNIT_NAMES[column.unit]) : null));
+    return el(
+      'th',
+      {
+        scope: 'col',
+        'aria-sort': 'none',
+        class: column.number ? 'number' : column.key,
+        'data-column': column.key,
+      },
+      el(
+        'button',
+        {type: 'button', title: column.what, onclick: () => sort(column)},
+        el('span', {}, column.name),
+        UNIT_NAMES[column.unit] ? el('small', {}, UNIT_NAMES[column.unit]) : null,
+      ),
+    );
   }
 
   function sort(column) {
@@ -55,8 +118,10 @@ export function showRuns(root, table, images, state) {
       const order = sorted.direction > 0 ? 'ascending' : 'descending';
       cell.setAttribute('aria-sort', other === column ? order : 'none');
     }
-    const order = [...table.runs].sort((a, b) =>
-      ascending(!a.ok, !b.ok) || compare(column.value(a), column.value(b), sorted.direction));
+    const order = [...table.runs].sort(
+      (a, b) =>
+        ascending(!a.ok, !b.ok) || compare(column.value(a), column.value(b), sorted.direction),
+    );
     body.append(...order.map((run) => rows.get(run)));
   }
 
@@ -71,9 +136,31 @@ export function showRuns(root, table, images, state) {
   body.append(...rows.values());
   const failed = table.runs.filter((run) => !run.ok).length;
   root.append(
-    el('h2', {}, `Runs`, el('small', {}, ` ${table.runs.length}${failed ? `, ${failed} failed` : ''}; a click on a heading sorts, unknown values and failed runs last`)),
-    el('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': 'Table of all runs'},
-      el('table', {class: 'runs'}, el('thead', {}, el('tr', {}, el('th', {class: 'sides', scope: 'col'}, 'image'), ...headers.values())), body)));
+    el(
+      'h2',
+      {},
+      `Runs`,
+      el(
+        'small',
+        {},
+        ` ${table.runs.length}${failed ? `, ${failed} failed` : ''}; a click on a heading sorts, unknown values and failed runs last`,
+      ),
+    ),
+    el(
+      'div',
+      {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': 'Table of all runs'},
+      el(
+        'table',
+        {class: 'runs'},
+        el(
+          'thead',
+          {},
+          el('tr', {}, el('th', {class: 'sides', scope: 'col'}, 'image'), ...headers.values()),
+        ),
+        body,
+      ),
+    ),
+  );
   state.listen(['a', 'b'], mark);
   mark();
 }

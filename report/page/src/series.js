@@ -18,7 +18,9 @@ export function groupings(table) {
 function groupOf(run, grouping, defaults) {
   if (!grouping) return settingsOf(run);
   const value = run.settings?.[grouping];
-  return value === undefined ? `${grouping}=${defaults.get(grouping) ?? 'default'} (default)` : `${grouping}=${value}`;
+  return value === undefined
+    ? `${grouping}=${defaults.get(grouping) ?? 'default'} (default)`
+    : `${grouping}=${value}`;
 }
 
 /**
@@ -37,7 +39,10 @@ export function seriesOf(table, grouping) {
     const settings = settingsOf(run);
     one.lines.set(settings, [...(one.lines.get(settings) ?? []), run]);
   }
-  return [...series.values()].map((one) => ({...one, lines: [...one.lines.values()].map(bySamples)}));
+  return [...series.values()].map((one) => ({
+    ...one,
+    lines: [...one.lines.values()].map(bySamples),
+  }));
 }
 
 const bySamples = (runs) =>
@@ -45,7 +50,8 @@ const bySamples = (runs) =>
 
 /** Runs that none other beats in both measures, by rising cost. */
 export function paretoFront(runs, x, y) {
-  const sorted = runs.filter((run) => typeof run[x] === 'number' && typeof run[y] === 'number')
+  const sorted = runs
+    .filter((run) => typeof run[x] === 'number' && typeof run[y] === 'number')
     .sort((a, b) => a[x] - b[x] || a[y] - b[y]);
   const front = [];
   for (const run of sorted) {

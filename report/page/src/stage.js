@@ -7,9 +7,25 @@ const PAN = 40; // device pixels, for an arrow key
 
 /** `onread(pixel)`: the pixel of the image under the pointer, or null. */
 export function createStage(onread) {
-  const canvas = el('canvas', {tabindex: 0, role: 'img', 'aria-label': 'Image A left of the slider, image B right of it. Arrow keys pan, plus and minus zoom, 0 fits.'});
-  const handle = el('div', {class: 'handle', role: 'slider', tabindex: 0, 'aria-label': 'Where image A ends and B begins',
-    'aria-valuemin': 0, 'aria-valuemax': 100, 'aria-orientation': 'horizontal'}, el('span', {}, '⟺'));
+  const canvas = el('canvas', {
+    tabindex: 0,
+    role: 'img',
+    'aria-label':
+      'Image A left of the slider, image B right of it. Arrow keys pan, plus and minus zoom, 0 fits.',
+  });
+  const handle = el(
+    'div',
+    {
+      class: 'handle',
+      role: 'slider',
+      tabindex: 0,
+      'aria-label': 'Where image A ends and B begins',
+      'aria-valuemin': 0,
+      'aria-valuemax': 100,
+      'aria-orientation': 'horizontal',
+    },
+    el('span', {}, '⟺'),
+  );
   const root = el('div', {class: 'stage'}, canvas, handle);
   const context = canvas.getContext('2d', {willReadFrequently: true});
   const view = createView();
@@ -40,7 +56,13 @@ export function createStage(onread) {
     context.clip();
     context.imageSmoothingEnabled = view.scale < 1;
     context.imageSmoothingQuality = 'high';
-    context.drawImage(layer.picture, view.x, view.y, layer.width * view.scale, layer.height * view.scale);
+    context.drawImage(
+      layer.picture,
+      view.x,
+      view.y,
+      layer.width * view.scale,
+      layer.height * view.scale,
+    );
     context.restore();
   }
 
@@ -75,7 +97,11 @@ export function createStage(onread) {
         before = now;
       };
       element.addEventListener('pointermove', move);
-      element.addEventListener('lostpointercapture', () => element.removeEventListener('pointermove', move), {once: true});
+      element.addEventListener(
+        'lostpointercapture',
+        () => element.removeEventListener('pointermove', move),
+        {once: true},
+      );
     });
   }
 
@@ -84,12 +110,16 @@ export function createStage(onread) {
     view.pan(now.x - before.x, now.y - before.y);
     draw();
   });
-  canvas.addEventListener('wheel', (event) => {
-    event.preventDefault();
-    const at = point(event);
-    view.zoomAt(at.x, at.y, 2 ** (-Math.sign(event.deltaY) / 3));
-    draw();
-  }, {passive: false});
+  canvas.addEventListener(
+    'wheel',
+    (event) => {
+      event.preventDefault();
+      const at = point(event);
+      view.zoomAt(at.x, at.y, 2 ** (-Math.sign(event.deltaY) / 3));
+      draw();
+    },
+    {passive: false},
+  );
   canvas.addEventListener('pointermove', (event) => {
     const at = point(event);
     onread(view.pixelAt(at.x, at.y));
@@ -108,16 +138,32 @@ export function createStage(onread) {
     view.pan(dx, dy);
     draw();
   };
-  keys(handle, {ArrowLeft: () => moveSplit(split - STEP), ArrowRight: () => moveSplit(split + STEP),
-    ArrowDown: () => moveSplit(split - STEP), ArrowUp: () => moveSplit(split + STEP),
-    PageDown: () => moveSplit(split - 0.1), PageUp: () => moveSplit(split + 0.1),
-    Home: () => moveSplit(0), End: () => moveSplit(1)});
-  keys(canvas, {ArrowLeft: () => pan(PAN, 0), ArrowRight: () => pan(-PAN, 0), ArrowUp: () => pan(0, PAN),
-    ArrowDown: () => pan(0, -PAN), '+': () => zoom(1.5), '=': () => zoom(1.5), '-': () => zoom(1 / 1.5), 0: fit});
+  keys(handle, {
+    ArrowLeft: () => moveSplit(split - STEP),
+    ArrowRight: () => moveSplit(split + STEP),
+    ArrowDown: () => moveSplit(split - STEP),
+    ArrowUp: () => moveSplit(split + STEP),
+    PageDown: () => moveSplit(split - 0.1),
+    PageUp: () => moveSplit(split + 0.1),
+    Home: () => moveSplit(0),
+    End: () => moveSplit(1),
+  });
+  keys(canvas, {
+    ArrowLeft: () => pan(PAN, 0),
+    ArrowRight: () => pan(-PAN, 0),
+    ArrowUp: () => pan(0, PAN),
+    ArrowDown: () => pan(0, -PAN),
+    '+': () => zoom(1.5),
+    '=': () => zoom(1.5),
+    '-': () => zoom(1 / 1.5),
+    0: fit,
+  });
   new ResizeObserver(resize).observe(root);
 
   return {
-    root, zoom, fit,
+    root,
+    zoom,
+    fit,
     /** One pixel of the image is one of the screen. */
     actualSize: () => zoom(1 / view.scale),
     /** Shows layers A and B; the view stays where it is unless their size changes. */

@@ -13,7 +13,9 @@ function cellText(value, column) {
 }
 
 function unitText(column) {
-  return /^bytes$/i.test(column.unit ?? '') || (!column.unit && /_bytes$/.test(column.name)) ? 'MiB' : column.unit;
+  return /^bytes$/i.test(column.unit ?? '') || (!column.unit && /_bytes$/.test(column.name))
+    ? 'MiB'
+    : column.unit;
 }
 
 const VERDICTS = [
@@ -23,7 +25,8 @@ const VERDICTS = [
 ];
 
 /** A class for the colour of a verdict: bad, fair or good; none when its words say neither. */
-export const verdictClass = (text) => VERDICTS.find(([, words]) => words.test(String(text)))?.[0] ?? 'none';
+export const verdictClass = (text) =>
+  VERDICTS.find(([, words]) => words.test(String(text)))?.[0] ?? 'none';
 
 function cell(value, column) {
   const text = cellText(value, column);
@@ -35,12 +38,47 @@ function cell(value, column) {
 
 function section({title, columns = [], rows = [], notes = []}) {
   const numeric = columns.map((_, i) => rows.some((row) => typeof row[i] === 'number'));
-  return el('section', {'aria-label': title}, el('h2', {}, title),
-    el('div', {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': title}, el('table', {},
-      el('thead', {}, el('tr', {}, columns.map((column, i) => el('th', {scope: 'col', class: numeric[i] ? 'number' : null},
-        column.name.replaceAll('_', ' ').replace(/ (s|bytes)$/, ''), unitText(column) ? el('small', {}, unitText(column)) : null)))),
-      el('tbody', {}, rows.map((row) => el('tr', {}, columns.map((column, i) => cell(row[i], column))))))),
-    notes.map((note) => el('p', {class: 'note'}, note)));
+  return el(
+    'section',
+    {'aria-label': title},
+    el('h2', {}, title),
+    el(
+      'div',
+      {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': title},
+      el(
+        'table',
+        {},
+        el(
+          'thead',
+          {},
+          el(
+            'tr',
+            {},
+            columns.map((column, i) =>
+              el(
+                'th',
+                {scope: 'col', class: numeric[i] ? 'number' : null},
+                column.name.replaceAll('_', ' ').replace(/ (s|bytes)$/, ''),
+                unitText(column) ? el('small', {}, unitText(column)) : null,
+              ),
+            ),
+          ),
+        ),
+        el(
+          'tbody',
+          {},
+          rows.map((row) =>
+            el(
+              'tr',
+              {},
+              columns.map((column, i) => cell(row[i], column)),
+            ),
+          ),
+        ),
+      ),
+    ),
+    notes.map((note) => el('p', {class: 'note'}, note)),
+  );
 }
 
 export const showTables = (root, table) => root.append(...table.tables.map(section));

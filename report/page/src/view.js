@@ -12,7 +12,10 @@ export function createView() {
 
   /** Keeps the picture centred where it is smaller than the canvas, else its edges outside. */
   function hold() {
-    for (const [axis, size] of [['x', 'width'], ['y', 'height']]) {
+    for (const [axis, size] of [
+      ['x', 'width'],
+      ['y', 'height'],
+    ]) {
       const room = canvas[size] - image[size] * view.scale;
       view[axis] = room >= 0 ? room / 2 : Math.min(0, Math.max(room, view[axis]));
     }
@@ -33,7 +36,10 @@ export function createView() {
     },
     /** Zooms by `factor` around a point of the canvas. */
     zoomAt(x, y, factor) {
-      const scale = Math.min(Math.max(view.scale * factor, Math.min(fitScale(), 1)), Math.max(MOST, fitScale()));
+      const scale = Math.min(
+        Math.max(view.scale * factor, Math.min(fitScale(), 1)),
+        Math.max(MOST, fitScale()),
+      );
       view.x = x - (x - view.x) * (scale / view.scale);
       view.y = y - (y - view.y) * (scale / view.scale);
       view.scale = scale;
@@ -47,8 +53,13 @@ export function createView() {
     },
     /** Pixel of the image at a point of the canvas; null outside. */
     pixelAt(x, y) {
-      const pixel = {x: Math.floor((x - view.x) / view.scale), y: Math.floor((y - view.y) / view.scale)};
-      return pixel.x >= 0 && pixel.y >= 0 && pixel.x < image.width && pixel.y < image.height ? pixel : null;
+      const pixel = {
+        x: Math.floor((x - view.x) / view.scale),
+        y: Math.floor((y - view.y) / view.scale),
+      };
+      return pixel.x >= 0 && pixel.y >= 0 && pixel.x < image.width && pixel.y < image.height
+        ? pixel
+        : null;
     },
   });
 }

@@ -11,8 +11,16 @@ import {compareTests} from './compare_tests.mjs';
 import {pageTests} from './page_tests.mjs';
 
 const CHROMIUM = '/usr/bin/chromium';
-const FLAGS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
-  '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+const FLAGS = [
+  '--headless',
+  '--no-sandbox',
+  '--disable-gpu',
+  '--disable-quic',
+  '--no-first-run',
+  '--disable-background-networking',
+  '--disable-component-update',
+  '--disable-sync',
+];
 
 function argument(name) {
   const at = process.argv.indexOf(name);
@@ -22,8 +30,10 @@ function argument(name) {
 
 /** The page of the fixture of tests/report/fixture.h. */
 function writePage(program, folder) {
-  execFileSync(resolve(program), ['A report holds its table and images*'],
-    {env: {...process.env, TESSERA_REPORT_FIXTURE: folder}, stdio: ['ignore', 'ignore', 'inherit']});
+  execFileSync(resolve(program), ['A report holds its table and images*'], {
+    env: {...process.env, TESSERA_REPORT_FIXTURE: folder},
+    stdio: ['ignore', 'ignore', 'inherit'],
+  });
   const page = join(folder, 'page.html');
   if (!existsSync(page)) throw new Error(`${program} did not write ${page}`);
   return page;
@@ -45,11 +55,17 @@ function watch(page, url) {
 }
 
 async function run(folder) {
-  const {chromium} = createRequire(resolve(argument('--modules'), 'package.json'))('playwright-core');
+  const {chromium} = createRequire(resolve(argument('--modules'), 'package.json'))(
+    'playwright-core',
+  );
   const file = writePage(argument('--fixture'), join(folder, 'fixture'));
   const url = pathToFileURL(file).href;
-  const context = await chromium.launchPersistentContext(join(folder, 'profile'),
-    {executablePath: CHROMIUM, headless: true, args: FLAGS, viewport: {width: 1280, height: 900}});
+  const context = await chromium.launchPersistentContext(join(folder, 'profile'), {
+    executablePath: CHROMIUM,
+    headless: true,
+    args: FLAGS,
+    viewport: {width: 1280, height: 900},
+  });
   let failures = 0;
   try {
     for (const [name, test] of [...pageTests, ...compareTests]) {

@@ -2,110 +2,169 @@
 import assert from 'node:assert/strict';
 
 /** The table as the page holds it. */
-export const tableOf = (page) => page.evaluate(() => JSON.parse(document.getElementById('trade-table').textContent));
+export const tableOf = (page) =>
+  page.evaluate(() => JSON.parse(document.getElementById('trade-table').textContent));
 
-const rowIds = (page) => page.$$eval('.runs tbody tr', (rows) => rows.map((row) => row.dataset.run));
+const rowIds = (page) =>
+  page.$$eval('.runs tbody tr', (rows) => rows.map((row) => row.dataset.run));
 
 /** Ids by a value, unknown ones last, failed runs after all; equal ones as they were. */
 function expectedOrder(runs, valueOf, direction) {
   const known = (run) => valueOf(run) !== null && valueOf(run) !== undefined;
   const ok = runs.filter((run) => run.ok);
-  const sorted = ok.filter(known).sort((a, b) => direction * (valueOf(a) < valueOf(b) ? -1 : valueOf(a) > valueOf(b) ? 1 : 0));
-  return [...sorted, ...ok.filter((run) => !known(run)), ...runs.filter((run) => !run.ok)].map((run) => run.id);
+  const sorted = ok
+    .filter(known)
+    .sort((a, b) => direction * (valueOf(a) < valueOf(b) ? -1 : valueOf(a) > valueOf(b) ? 1 : 0));
+  return [...sorted, ...ok.filter((run) => !known(run)), ...runs.filter((run) => !run.ok)].map(
+    (run) => run.id,
+  );
 }
 
 async function clickAndRead(page, column) {
   await page.click(`.runs th[data-column=${column}] button`);
-  return {order: await rowIds(page), sort: await page.getAttribute(`.runs th[data-column=${column}]`, 'aria-sort')};
+  return {
+    order: await rowIds(page),
+    sort: await page.getAttribute(`.runs th[data-column=${column}]`, 'aria-sort'),
+  };
 }
 
 export const pageTests = [
-  ['the summary says what was rendered, on what, against what', async (page) => {
-    const text = await page.innerText('#summary');
-    for (const part of ['<fixture>.rib', 'More samples & <less> error.', 'a processor, 2 cores', '1024 samples per pixel',
-      '0123456789abcdef', '12, of which 1 failed', '1.00e−5']) {
-      assert.ok(text.includes(part), `no "${part}" in: ${text}`);
-    }
-    assert.equal(await page.title(), '<fixture>.rib: error against cost');
-  }],
-
-  ['text with markup is shown as text', async (page) => {
-    assert.equal(await page.innerText('.runs tr[data-run="0008"] .label'),
-      'hider=<b>tct</b></script><script>alert(1)</script><!-- spp=16');
-    assert.equal(await page.innerText('.runs tr[data-run="0012"] .failure'), 'failed: no memory: <b>4 GiB</b> needed</script>');
-    assert.equal(await page.innerText('#tables tbody td'), 'blur of <i>1000</i> pixels');
-    assert.equal(await page.locator('.runs b, #tables i').count(), 0);
-  }],
-
-  ['the table sorts by numbers and by text, both ways', async (page) => {
-    const {runs} = await tableOf(page);
-    for (const column of ['frame_s', 'rays', 'rel_mse', 'id']) {
-      for (const [direction, name] of [[1, 'ascending'], [-1, 'descending']]) {
-        const {order, sort} = await clickAndRead(page, column);
-        assert.equal(sort, name);
-        assert.deepEqual(order, expectedOrder(runs, (run) => run[column], direction), `by ${column}, ${name}`);
+  [
+    'the summary says what was rendered, on what, against what',
+    async (page) => {
+      const text = await page.innerText('#summary');
+      for (const part of [
+        '<fixture>.rib',
+        'More samples & <less> error.',
+        'a processor, 2 cores',
+        '1024 samples per pixel',
+        '0123456789abcdef',
+        '12, of which 1 failed',
+        '1.00e−5',
+      ]) {
+        assert.ok(text.includes(part), `no "${part}" in: ${text}`);
       }
-    }
-    assert.equal(await page.locator('.runs th:not([aria-sort=none])[data-column]').count(), 1);
-    const {order} = await clickAndRead(page, 'label'); // 4 before 16 before 64
-    assert.deepEqual(order.filter((id) => id < '0004'), ['0001', '0002', '0003']);
-  }],
+      assert.equal(await page.title(), '<fixture>.rib: error against cost');
+    },
+  ],
 
-  ['a point that is pointed at is read, one that is clicked becomes image A', async (page) => {
-    const {runs} = await tableOf(page);
-    const bounds = await page.locator('.point[data-run="0006"]').boundingBox();
-    const at = [bounds.x + bounds.width / 2, bounds.y + bounds.height / 2];
-    await page.mouse.move(...at);
-    const run = runs.find((candidate) => candidate.id === '0006');
-    assert.equal(await page.innerText('.reading-name'), `0006 ${run.label}`);
-    assert.equal(await page.innerText('.reading-options'), run.options.join(' '));
-    const read = async (key) => page.innerText(`.reading dd[data-measure=${key}]`);
-    assert.equal(parseFloat(await read('frame_s')), Number(run.frame_s.toPrecision(3)));
-    assert.equal(parseFloat(await read('rel_mse')), Number(run.rel_mse.toPrecision(3)));
-    assert.equal(await read('peak_bytes'), `${(run.peak_bytes / 2 ** 20).toFixed(1)} MiB`);
-    await page.mouse.click(...at);
-    assert.equal(await page.inputValue('select[aria-label="Image A"]'), '0006');
-    await page.keyboard.down('Shift');
-    await page.mouse.click(...at);
-    await page.keyboard.up('Shift');
-    assert.equal(await page.inputValue('select[aria-label="Image B"]'), '0006');
-  }],
+  [
+    'text with markup is shown as text',
+    async (page) => {
+      assert.equal(
+        await page.innerText('.runs tr[data-run="0008"] .label'),
+        'hider=<b>tct</b></script><script>alert(1)</script><!-- spp=16',
+      );
+      assert.equal(
+        await page.innerText('.runs tr[data-run="0012"] .failure'),
+        'failed: no memory: <b>4 GiB</b> needed</script>',
+      );
+      assert.equal(await page.innerText('#tables tbody td'), 'blur of <i>1000</i> pixels');
+      assert.equal(await page.locator('.runs b, #tables i').count(), 0);
+    },
+  ],
 
-  ['points lie where their values say, on any axes', async (page) => {
-    const {runs} = await tableOf(page);
-    await page.selectOption('select[aria-label="x axis"]', 'shaded_points');
-    await page.selectOption('select[aria-label="y axis"]', 'rmse');
-    const places = await page.$$eval('.point', (points) => points.map((point) => {
-      const [, x, y] = /translate\((.*),(.*)\)/.exec(point.getAttribute('transform'));
-      return {id: point.dataset.run, x: Number(x), y: Number(y)};
-    }));
-    assert.equal(places.length, 11);
-    const value = (id, key) => Math.log(runs.find((run) => run.id === id)[key]);
-    // Three points lie on one line of log(value) against pixels when slopes between them agree.
-    for (const [axis, key] of [['x', 'shaded_points'], ['y', 'rmse']]) {
-      const [first, last] = [places[0], places[2]];
-      const slope = (last[axis] - first[axis]) / (value(last.id, key) - value(first.id, key));
-      assert.ok(axis === 'x' ? slope > 0 : slope < 0);
-      for (const place of places) {
-        const expected = first[axis] + slope * (value(place.id, key) - value(first.id, key));
-        assert.ok(Math.abs(place[axis] - expected) < 0.01, `run ${place.id}, ${key}`);
+  [
+    'the table sorts by numbers and by text, both ways',
+    async (page) => {
+      const {runs} = await tableOf(page);
+      for (const column of ['frame_s', 'rays', 'rel_mse', 'id']) {
+        for (const [direction, name] of [
+          [1, 'ascending'],
+          [-1, 'descending'],
+        ]) {
+          const {order, sort} = await clickAndRead(page, column);
+          assert.equal(sort, name);
+          assert.deepEqual(
+            order,
+            expectedOrder(runs, (run) => run[column], direction),
+            `by ${column}, ${name}`,
+          );
+        }
       }
-    }
-  }],
+      assert.equal(await page.locator('.runs th:not([aria-sort=none])[data-column]').count(), 1);
+      const {order} = await clickAndRead(page, 'label'); // 4 before 16 before 64
+      assert.deepEqual(
+        order.filter((id) => id < '0004'),
+        ['0001', '0002', '0003'],
+      );
+    },
+  ],
 
-  ['a value of zero has a place, an unknown one is said to be missing', async (page) => {
-    await page.selectOption('select[aria-label="x axis"]', 'rays');
-    await page.selectOption('select[aria-label="y axis"]', 'visible');
-    assert.equal(await page.locator('.point').count(), 10);
-    assert.equal(await page.locator('.axis .zero').count(), 1);
-    assert.match(await page.innerText('#plot .note'), /^1 of 11 runs/);
-  }],
+  [
+    'a point that is pointed at is read, one that is clicked becomes image A',
+    async (page) => {
+      const {runs} = await tableOf(page);
+      const bounds = await page.locator('.point[data-run="0006"]').boundingBox();
+      const at = [bounds.x + bounds.width / 2, bounds.y + bounds.height / 2];
+      await page.mouse.move(...at);
+      const run = runs.find((candidate) => candidate.id === '0006');
+      assert.equal(await page.innerText('.reading-name'), `0006 ${run.label}`);
+      assert.equal(await page.innerText('.reading-options'), run.options.join(' '));
+      const read = async (key) => page.innerText(`.reading dd[data-measure=${key}]`);
+      assert.equal(parseFloat(await read('frame_s')), Number(run.frame_s.toPrecision(3)));
+      assert.equal(parseFloat(await read('rel_mse')), Number(run.rel_mse.toPrecision(3)));
+      assert.equal(await read('peak_bytes'), `${(run.peak_bytes / 2 ** 20).toFixed(1)} MiB`);
+      await page.mouse.click(...at);
+      assert.equal(await page.inputValue('select[aria-label="Image A"]'), '0006');
+      await page.keyboard.down('Shift');
+      await page.mouse.click(...at);
+      await page.keyboard.up('Shift');
+      assert.equal(await page.inputValue('select[aria-label="Image B"]'), '0006');
+    },
+  ],
 
-  ['nothing overflows sideways, on wide and narrow screens', async (page) => {
-    for (const width of [1280, 800]) {
-      await page.setViewportSize({width, height: 900});
-      const wider = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
-      assert.ok(wider <= 0, `${wider} pixels too wide at ${width}`);
-    }
-  }],
+  [
+    'points lie where their values say, on any axes',
+    async (page) => {
+      const {runs} = await tableOf(page);
+      await page.selectOption('select[aria-label="x axis"]', 'shaded_points');
+      await page.selectOption('select[aria-label="y axis"]', 'rmse');
+      const places = await page.$$eval('.point', (points) =>
+        points.map((point) => {
+          const [, x, y] = /translate\((.*),(.*)\)/.exec(point.getAttribute('transform'));
+          return {id: point.dataset.run, x: Number(x), y: Number(y)};
+        }),
+      );
+      assert.equal(places.length, 11);
+      const value = (id, key) => Math.log(runs.find((run) => run.id === id)[key]);
+      // Three points lie on one line of log(value) against pixels when slopes between them agree.
+      for (const [axis, key] of [
+        ['x', 'shaded_points'],
+        ['y', 'rmse'],
+      ]) {
+        const [first, last] = [places[0], places[2]];
+        const slope = (last[axis] - first[axis]) / (value(last.id, key) - value(first.id, key));
+        assert.ok(axis === 'x' ? slope > 0 : slope < 0);
+        for (const place of places) {
+          const expected = first[axis] + slope * (value(place.id, key) - value(first.id, key));
+          assert.ok(Math.abs(place[axis] - expected) < 0.01, `run ${place.id}, ${key}`);
+        }
+      }
+    },
+  ],
+
+  [
+    'a value of zero has a place, an unknown one is said to be missing',
+    async (page) => {
+      await page.selectOption('select[aria-label="x axis"]', 'rays');
+      await page.selectOption('select[aria-label="y axis"]', 'visible');
+      assert.equal(await page.locator('.point').count(), 10);
+      assert.equal(await page.locator('.axis .zero').count(), 1);
+      assert.match(await page.innerText('#plot .note'), /^1 of 11 runs/);
+    },
+  ],
+
+  [
+    'nothing overflows sideways, on wide and narrow screens',
+    async (page) => {
+      for (const width of [1280, 800]) {
+        await page.setViewportSize({width, height: 900});
+        const wider = await page.evaluate(
+          () => document.documentElement.scrollWidth - window.innerWidth,
+        );
+        assert.ok(wider <= 0, `${wider} pixels too wide at ${width}`);
+      }
+    },
+  ],
 ];
