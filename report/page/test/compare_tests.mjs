@@ -248,6 +248,7 @@ export const compareTests = [
         page.$$eval('section', (sections) =>
           sections.map((section) => section.getBoundingClientRect().top + window.scrollY),
         );
+      await page.setViewportSize({width: 800, height: 900}); // all in one column
       const before = await tops();
       await page.hover('.point[data-run="0009"]', {force: true});
       await page.hover('.stage');
