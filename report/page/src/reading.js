@@ -13,6 +13,18 @@ const SHOWN = [
   'visible',
 ];
 
+/** What else is to be said of a run. */
+function remarks(run) {
+  const all = [
+    run.pareto && 'on the Pareto front',
+    run.limited_by_reference && "its error is hidden by the reference's own",
+  ];
+  return all
+    .filter(Boolean)
+    .map((text) => `  · ${text}`)
+    .join('');
+}
+
 export function createReading(table, state) {
   const name = el('div', {class: 'reading-name'});
   const options = el('code', {class: 'reading-options'});
@@ -28,9 +40,7 @@ export function createReading(table, state) {
 
   function show() {
     const run = table.runs.find((candidate) => candidate.id === state.get('read'));
-    name.textContent = run
-      ? `${run.id} ${run.label}${run.pareto ? '  · on the Pareto front' : ''}`
-      : 'Point at a run to read it';
+    name.textContent = run ? `${run.id} ${run.label}${remarks(run)}` : 'Point at a run to read it';
     options.textContent = run
       ? (run.options ?? []).join(' ')
       : 'click: image A; shift and click: image B';
