@@ -42,7 +42,7 @@ class Checkout {
     folder_.write("checkout/CMakeLists.txt", "");
     folder_.write("checkout/CMakePresets.json", "");
     folder_.write("checkout/cmake/packages.txt", "# a comment\nbash\n");
-    folder_.write("checkout/cmake/commands.txt", "# a comment\ncat: coreutils\n");
+    folder_.write("checkout/cmake/commands.txt", "# a comment\ncat: coreutils all\n");
     fs::copy_file(TESSERA_SOURCE_DIR "/tessera", path("tessera"));
     tool("cmake", fake_cmake);
     tool("dpkg-query", fake_dpkg_query);
@@ -163,14 +163,17 @@ TEST_CASE("missing packages are installed and named") {
   CHECK(checkout.calls("apt-get install -q -y") == 1);
 }
 
-TEST_CASE("the package of a command is installed when no such command is on the path") {
+TEST_CASE("the package of a command is installed for the targets that need it, where it is missing") {
   const Checkout checkout("tessera-launcher");
   std::ofstream(checkout.path("cmake/commands.txt"))
-      << "# a comment\ncat: coreutils\nno-such-command-here: a-package\n";
-  const ProgramResult result = checkout.run({"render"});
-  CHECK(result.exit_code == 0);
-  CHECK(result.err.find("Installing Debian packages: a-package\n") != std::string::npos);
+      << "# a comment\ncat: coreutils tessera all\nno-such-command-here: a-package tessera all\n"
+         "nor-this-one: b-package all\n";
+  const ProgramResult render = checkout.run({"render"});
+  CHECK(render.exit_code == 0);
+  CHECK(render.err.find("Installing Debian packages: a-package\n") != std::string::npos);
   CHECK(checkout.calls("apt-get install -q -y --no-install-recommends a-package") == 1);
+  const ProgramResult test = checkout.run({"test"});
+  CHECK(test.err.find("Installing Debian packages: a-package b-package\n") != std::string::npos);
 }
 
 TEST_CASE("the script works through a symbolic link and from a moved checkout") {
