@@ -1,0 +1,303 @@
+#include "trade/trade.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "engine/command.h"
+#include "engine/frame_files.h"
+#include "images/exr.h"
+#include "trade/against.h"
+#include "trade/content_hash.h"
+#include "trade/heat_maps.h"
+#include "trade/ledger.h"
+#include "trade/measure.h"
+#include "trade/pareto.h"
+#include "trade/report_page.h"
+#include "trade/schedule.h"
+#include "trade/table.h"
+#include "trade/words.h"
+
+namespace tessera::trade {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A run is limited by the reference when the reference's own error is more than this share of
+/// what was measured.
+constexpr double limiting_share = 0.25;
+/// Of a budget, the most that the reference may take; and how much dearer one of its samples is
+/// taken to be than one of the default's.
+constexpr double reference_share = 1.0 / 3.0, reference_cost = 2.0;
+
+void say(const std::string& line) { fmt::print(stderr, "{}\n", line); }
+
+/// One sweep from its first run to its files.
+class Trade {
+ public:
+  Trade(const TradeOptions& options, const std::string& program, const std::atomic<bool>& cancel)
+      : options_(options),
+        cancel_(cancel),
+        renderer_(program, options.scene, options.common, options.timeout_s, &cancel) {}
+
+  int run();
+
+ private:
+  std::string path(const std::string& name) const {
+    return (fs::path(options_.output) / name).string();
+  }
+  double elapsed_s() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  double left_s() const { return options_.budget_s ? *options_.budget_s - elapsed_s() : 1e30; }
+
+  void probe();
+  void list();
+  int reference_spp();
+  void find_reference();
+  Identity identity() const;
+  std::unique_ptr<Ledger> open_ledger(std::vector<Measurement>& before);
+  void name_configurations(const std::vector<Measurement>& before);
+  SweepOutcome measure_all(Ledger& ledger, const std::vector<Measurement>& before);
+  void conclude(const SweepOutcome& outcome);
+  void write(const SweepOutcome& outcome);
+
+  const TradeOptions& options_;
+  const std::atomic<bool>& cancel_;
+  Renderer renderer_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double probe_wall_s_ = 0;
+  TradeTable table_;
+};
+
+/// The default, with the samples that the scene asks for: what is in the scene, and what a frame
+/// costs.
+void Trade::probe() {
+  const Rendered rendered =
+      renderer_.render({}, path("probe.exr"), std::min(options_.timeout_s, left_s()));
+  if (!rendered.failure.empty())
+    throw Error(fmt::format("{} cannot be rendered: {}", options_.scene, rendered.failure));
+  probe_wall_s_ = rendered.process.wall_s;
+  table_.plan = plan_of(rendered.statistics);
+}
+
+void Trade::list() {
+  SweepRequest request;
+  request.knobs = options_.knobs;
+  request.baselines = options_.baselines;
+  request.qualities = options_.qualities;
+  request.ladder = options_.ladder;
+  request.plan = table_.plan;
+  request.common = options_.common;
+  request.has_option = [this](const std::string& option) { return renderer_.has_option(option); };
+  table_.list = list_configurations(request);
+  table_.ladder = options_.ladder;
+  for (const std::string& note : table_.list.notes) say(note);
+  for (const std::string& note : table_.list.missing_baselines) say(note);
+}
+
+int Trade::reference_spp() {
+  if (options_.reference_spp) return *options_.reference_spp;
+  const int most = std::max(options_.ladder.back(), table_.list.pivot_spp);
+  int spp = 16 * most;
+  const double sample_s = reference_cost * probe_wall_s_ / table_.list.pivot_spp;
+  while (options_.budget_s && spp > most && spp * sample_s > reference_share * *options_.budget_s)
+    spp /= 2;
+  if (spp < 16 * most)
+    table_.list.notes.push_back(
+        fmt::format("the reference has {} samples per pixel rather than {}, to fit the budget", spp,
+                    16 * most));
+  return spp;
+}
+
+void Trade::find_reference() {
+  Reference& reference = table_.reference;
+  if (!options_.reference.empty()) {
+    reference = take_reference(options_.reference, path("probe.exr"), table_.scene_hash);
+  } else {
+    ReferenceRequest request;
+    request.spp = reference_spp();
+    request.cache = options_.cache;
+    request.folder = options_.output;
+    request.scene_hash = table_.scene_hash;
+    request.limit_s = left_s();
+    request.say = say;
+    reference = make_reference(renderer_, request);
+  }
+  say(fmt::format("reference{}: {}, its own relMSE {}", reference.cached ? " (cached)" : "",
+                  reference.file,
+                  reference.rel_mse == reference.rel_mse ? fmt::format("{:.2g}", reference.rel_mse)
+                                                         : std::string("unknown")));
+  std::error_code same;
+  if (!fs::equivalent(reference.file, path("reference.exr"), same))
+    fs::copy_file(reference.file, path("reference.exr"), fs::copy_options::overwrite_existing);
+}
+
+Identity Trade::identity() const {
+  return {{"scene hash", table_.scene_hash},
+          {"renderer", renderer_.software()},
+          {"renderer's bytes", renderer_.build()},
+          {"options of every run", fmt::format("{}", fmt::join(options_.common, " "))},
+          {"reference", hash_pixels(read_exr(path("reference.exr")))}};
+}
+
+std::unique_ptr<Ledger> Trade::open_ledger(std::vector<Measurement>& before) {
+  const std::string file = path("runs.jsonl");
+  if (!options_.resume || !fs::exists(file)) {
+    if (options_.resume) say(fmt::format("nothing to resume in {}: starting anew", file));
+    return std::make_unique<Ledger>(file, identity());
+  }
+  const LedgerContent content = read_ledger(file);
+  check_identity(file, content.identity, identity());
+  if (content.torn) say(fmt::format("{}: the last line is torn and left out", file));
+  before = content.measurements;
+  say(fmt::format("resuming after {} runs", before.size()));
+  return std::make_unique<Ledger>(file, content);
+}
+
+/// Configurations that the ledger knows keep their names, others take new ones.
+void Trade::name_configurations(const std::vector<Measurement>& before) {
+  int next = 1;
+  for (const Measurement& measurement : before)
+    next = std::max(next, std::atoi(measurement.id.c_str()) + 1);
+  for (Configuration& configuration : table_.list.configurations) {
+    for (const Measurement& measurement : before)
+      if (measurement.label == configuration.label()) configuration.id = measurement.id;
+    if (configuration.id.empty()) configuration.id = fmt::format("{:04}", next++);
+  }
+}
+
+SweepOutcome Trade::measure_all(Ledger& ledger, const std::vector<Measurement>& before) {
+  const std::vector<Configuration>& all = table_.list.configurations;
+  size_t done = 0;
+  const Runner runner = [&](const Configuration& configuration, int round, double limit_s) {
+    Measurement m =
+        measure(renderer_, configuration, round, limit_s,
+                {path(fmt::format("runs/{}.exr", configuration.id)), path("reference.exr")});
+    if (m.stopped) return m;
+    ledger.append(m);
+    const std::string result =
+        m.ok ? fmt::format("{:.3f} s", m.frame_s) +
+                   (round == 0 ? fmt::format(", relMSE {:.3g}", m.rel_mse) : std::string())
+             : "failed: " + m.error;
+    say(fmt::format("[{}/{}] {}: {}", ++done, all.size() * size_t(options_.repeats), m.label,
+                    result));
+    return m;
+  };
+  SweepSettings settings;
+  settings.repeats = options_.repeats;
+  if (options_.budget_s) settings.end_s = *options_.budget_s;
+  settings.probe_wall_s = probe_wall_s_;
+  settings.probe_spp = table_.list.pivot_spp;
+  return sweep(
+      all, settings, before, runner, [this] { return elapsed_s(); },
+      [this] { return cancel_.load(); });
+}
+
+void Trade::conclude(const SweepOutcome& outcome) {
+  table_.runs = gather_runs(table_.list.configurations, outcome.measurements);
+  for (Run& run : table_.runs)
+    run.limited = run.ok() && table_.reference.rel_mse > limiting_share * run.result.rel_mse;
+  mark_front(table_.runs);
+  if (!outcome.left_out.empty())
+    table_.list.notes.push_back(fmt::format("not run{}: {}",
+                                            outcome.cancelled ? "" : ", as the budget was spent",
+                                            fmt::join(outcome.left_out, ", ")));
+  if (outcome.fewer_repeats > 0)
+    table_.list.notes.push_back(fmt::format("{} configurations have fewer than {} repeats",
+                                            outcome.fewer_repeats, options_.repeats));
+  table_.words = describe_trade({table_.runs, table_.list.turns, table_.list.pivot_spp,
+                                 options_.repeats, table_.reference.rel_mse});
+  if (!options_.baselines.empty())
+    table_.tables.push_back(against_table(table_.runs, table_.list.baselines, table_.list.pivot_spp,
+                                          table_.list.missing_baselines));
+}
+
+void Trade::write(const SweepOutcome& outcome) {
+  if (!options_.report.empty() && !outcome.cancelled)
+    table_.heat_maps = render_heat_maps(renderer_, runs_to_map(table_.runs), path("runs"),
+                                        [this] { return cancel_.load(); });
+  const nlohmann::ordered_json json = json_of(table_);
+  write_text_file(path("trade.json"), json.dump(2) + "\n");
+  write_text_file(path("trade.csv"), csv_of(table_.runs));
+  fmt::print("{}\n", text_of(table_));
+  for (const std::string& sentence : table_.words) fmt::print("- {}\n", sentence);
+  for (const nlohmann::ordered_json& table : table_.tables)
+    fmt::print("\n{}", text_of_extra(table));
+  if (options_.report.empty()) return;
+  fs::create_directories(options_.report);
+  write_report_page(json, options_.output, fs::path(options_.report) / "index.html");
+}
+
+int Trade::run() {
+  table_.scene = options_.scene;
+  table_.software = renderer_.software();
+  table_.scene_hash = hash_scene(options_.scene);
+  probe();
+  list();
+  find_reference();
+  fs::remove(path("probe.exr"));
+  std::vector<Measurement> before;
+  const std::unique_ptr<Ledger> ledger = open_ledger(before);
+  name_configurations(before);
+  const SweepOutcome outcome = measure_all(*ledger, before);
+  conclude(outcome);
+  write(outcome);
+  if (outcome.cancelled || cancel_) {
+    say("interrupted; --resume goes on");
+    return exit_cancelled;
+  }
+  const bool any =
+      std::any_of(table_.runs.begin(), table_.runs.end(), [](const Run& run) { return run.ok(); });
+  return any ? exit_success : exit_failure;
+}
+
+/// Makes the folder, and throws Error where it cannot take a sweep.
+void prepare_folder(const TradeOptions& options) {
+  const fs::path folder = options.output;
+  std::error_code error;
+  if (fs::exists(folder) && !fs::is_directory(folder))
+    throw Error(fmt::format("cannot write to {}: it is no folder", folder.string()));
+  const fs::path ledger = folder / "runs.jsonl";
+  if (fs::exists(ledger) && !options.resume && !options.fresh)
+    throw Error(
+        fmt::format("{} holds runs already: --resume goes on with them, --fresh forgets "
+                    "them, -o writes elsewhere",
+                    folder.string()));
+  if (options.fresh) {
+    for (const char* name : {"runs.jsonl", "runs", "trade.json", "trade.csv", "reference.exr"})
+      fs::remove_all(folder / name, error);
+  }
+  fs::create_directories(folder / "runs", error);
+  if (error || access(folder.c_str(), W_OK | X_OK) != 0 ||
+      access((folder / "runs").c_str(), W_OK | X_OK) != 0)
+    throw Error(fmt::format("cannot write to {}: {}", folder.string(),
+                            error ? error.message() : std::strerror(errno)));
+}
+
+}  // namespace
+
+int run_trade(const TradeOptions& options, const std::string& program,
+              const std::atomic<bool>& cancel) {
+  if (!options.report.empty() && !has_report_page())
+    throw Error("this build has no report page, which --report asks for");
+  // Before anything is made: a scene that is not there leaves no folder behind.
+  ContentHash().add_file(options.scene);
+  prepare_folder(options);
+  try {
+    return Trade(options, program, cancel).run();
+  } catch (const Error&) {
+    if (!cancel) throw;
+    say("interrupted");
+    return exit_cancelled;
+  }
+}
+
+}  // namespace tessera::trade
