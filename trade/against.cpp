@@ -47,10 +47,10 @@ Json columns() {
   return {{{"name", "case"}},
           {{"name", "frame_s"}, {"unit", "s"}},
           {{"name", "rel_mse"}},
-          {{"name", "time_at_equal_error"}, {"unit", "x default"}},
-          {{"name", "time_at_equal_error_ladder"}, {"unit", "x default"}},
-          {{"name", "error_at_equal_time"}, {"unit", "x default"}},
-          {{"name", "error_at_equal_time_ladder"}, {"unit", "x default"}}};
+          {{"name", "time ratio"}},
+          {{"name", "time ratio, ladder"}},
+          {{"name", "error ratio"}},
+          {{"name", "error ratio, ladder"}}};
 }
 
 }  // namespace
@@ -70,14 +70,18 @@ Json against_table(const std::vector<Run>& runs, const std::vector<Baseline>& ba
     }
   }
   notes.push_back(
-      fmt::format("frame_s and rel_mse: at {} samples per pixel. Ratios above 1: the "
-                  "default is better. Time at equal error: to reach the default's "
-                  "relMSE at {} samples, over its time; error at equal time: after the "
-                  "default's time at {} samples, over its relMSE. Both interpolate "
-                  "logarithms along the ladder of samples; 'at least' and 'at most': "
-                  "beyond it. Ladder: geometric mean over the default's points within "
-                  "the baseline's ladder.",
-                  pivot_spp, pivot_spp, pivot_spp));
+      fmt::format("frame_s and rel_mse: at {} samples per pixel. Ratios are of the "
+                  "baseline to the default: above 1, the default is better.",
+                  pivot_spp));
+  notes.push_back(
+      fmt::format("time ratio: time to reach the default's relMSE at {} samples, over "
+                  "the default's time. error ratio: relMSE after the default's time at "
+                  "{} samples, over the default's. Both interpolate logarithms along "
+                  "the ladder of samples; 'at least' and 'at most': beyond it.",
+                  pivot_spp, pivot_spp));
+  notes.push_back(
+      "ladder: geometric mean over all points of the default that lie within the "
+      "baseline's ladder.");
   for (const std::string& reason : missing) notes.push_back(reason);
   return {{"title", "The default against baselines"},
           {"columns", columns()},

@@ -105,8 +105,7 @@ Comparison compare_curves(std::span<const CurvePoint> curve, std::span<const Cur
   }
   comparison.time_ratio_ladder = time_mean.mean();
   comparison.error_ratio_ladder = error_mean.mean();
-  comparison.noise = comparison.time_ratio.spread + pivot.spread;
-  for (const CurvePoint& point : curve) comparison.repeated |= point.spread > 0;
+  comparison.noise = std::hypot(comparison.time_ratio.spread, pivot.spread);
   return comparison;
 }
 

@@ -11,7 +11,7 @@ namespace tessera::trade {
 
 struct CurvePoint {
   double spp = 0, time_s = 0, rel_mse = 0;
-  double spread = 0;  ///< of the repeats of its time, relative
+  double spread = 0;  ///< Run::spread() of its time
 };
 
 /// A number read off a curve, or off the ratio of two. Past the ends of a ladder all that is known
@@ -48,9 +48,7 @@ struct Comparison {
   Reading error_ratio;   ///< error after the other's time there, over the other's error
   /// The same of all points of the other whose error lies on this ladder: geometric means.
   Reading time_ratio_ladder, error_ratio_ladder;
-  double noise =
-      0;  ///< of a ratio of times, relative: the spreads of the repeats that it comes from
-  bool repeated = false;  ///< whether there were repeats to know noise from
+  double noise = 0;  ///< of a ratio of times, relative: root of the summed squares of both spreads
 
   /// Whether the ratio of times differs from 1 by no more than noise.
   bool within_noise() const;

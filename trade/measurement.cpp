@@ -98,7 +98,7 @@ Measurement Measurement::from_json(const Json& json) {
 double Run::spread() const {
   if (frame_s_all.size() < 2) return 0;
   const auto [least, most] = std::minmax_element(frame_s_all.begin(), frame_s_all.end());
-  return *least > 0 ? *most / *least - 1 : 0;
+  return result.frame_s > 0 ? 0.5 * (*most - *least) / result.frame_s : 0;
 }
 
 double median(std::vector<double> values) {

@@ -117,7 +117,8 @@ std::string text_of(const TradeTable& table) {
               ? ", of which nothing is known here.\n"
               : fmt::format(", whose own relMSE is {:.2g}.\n", table.reference.rel_mse);
   text +=
-      "spread: largest over least frame time of the repeats, less 1.  STE: samples covered over "
+      "spread: half of what the repeats' frame times span, of their median.  STE: samples covered "
+      "over "
       "samples tested.\n";
   for (const Run& run : table.runs)
     if (run.measured && !run.ok())

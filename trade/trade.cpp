@@ -1,13 +1,10 @@
 #include "trade/trade.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "base/error.h"
 #include "engine/command.h"
@@ -15,6 +12,7 @@
 #include "images/exr.h"
 #include "trade/against.h"
 #include "trade/content_hash.h"
+#include "trade/folder.h"
 #include "trade/heat_maps.h"
 #include "trade/ledger.h"
 #include "trade/measure.h"
@@ -213,8 +211,8 @@ void Trade::conclude(const SweepOutcome& outcome) {
   if (outcome.fewer_repeats > 0)
     table_.list.notes.push_back(fmt::format("{} configurations have fewer than {} repeats",
                                             outcome.fewer_repeats, options_.repeats));
-  table_.words = describe_trade({table_.runs, table_.list.turns, table_.list.pivot_spp,
-                                 options_.repeats, table_.reference.rel_mse});
+  table_.words = describe_trade(
+      {table_.runs, table_.list.turns, table_.list.pivot_spp, table_.reference.rel_mse});
   if (!options_.baselines.empty())
     table_.tables.push_back(against_table(table_.runs, table_.list.baselines, table_.list.pivot_spp,
                                           table_.list.missing_baselines));
@@ -259,29 +257,6 @@ int Trade::run() {
   return any ? exit_success : exit_failure;
 }
 
-/// Makes the folder, and throws Error where it cannot take a sweep.
-void prepare_folder(const TradeOptions& options) {
-  const fs::path folder = options.output;
-  std::error_code error;
-  if (fs::exists(folder) && !fs::is_directory(folder))
-    throw Error(fmt::format("cannot write to {}: it is no folder", folder.string()));
-  const fs::path ledger = folder / "runs.jsonl";
-  if (fs::exists(ledger) && !options.resume && !options.fresh)
-    throw Error(
-        fmt::format("{} holds runs already: --resume goes on with them, --fresh forgets "
-                    "them, -o writes elsewhere",
-                    folder.string()));
-  if (options.fresh) {
-    for (const char* name : {"runs.jsonl", "runs", "trade.json", "trade.csv", "reference.exr"})
-      fs::remove_all(folder / name, error);
-  }
-  fs::create_directories(folder / "runs", error);
-  if (error || access(folder.c_str(), W_OK | X_OK) != 0 ||
-      access((folder / "runs").c_str(), W_OK | X_OK) != 0)
-    throw Error(fmt::format("cannot write to {}: {}", folder.string(),
-                            error ? error.message() : std::strerror(errno)));
-}
-
 }  // namespace
 
 int run_trade(const TradeOptions& options, const std::string& program,
@@ -290,7 +265,7 @@ int run_trade(const TradeOptions& options, const std::string& program,
     throw Error("this build has no report page, which --report asks for");
   // Before anything is made: a scene that is not there leaves no folder behind.
   ContentHash().add_file(options.scene);
-  prepare_folder(options);
+  prepare_folder(options.output, options.resume, options.fresh);
   try {
     return Trade(options, program, cancel).run();
   } catch (const Error&) {

@@ -22,33 +22,41 @@ bool is_faster(const Judged& judged) {
          std::log(ratio.value) < -std::log1p(judged.comparison.noise);
 }
 
-std::string noise_text(const Judged& judged) {
-  return fmt::format("repeats vary by {:.0f} %", 100 * judged.comparison.noise);
+/// "0.71 of", "2.4 times", "at least 2 times": a share of the default's time, or a multiple.
+std::string share_of_time(const Reading& ratio) {
+  return ratio.value < 1 ? text_of(ratio) + " of" : text_of(ratio) + " times";
 }
 
-/// "0.71 of the default's time" at the default's error, or what is known of it.
-std::string time_sentence(const Judged& judged) {
+/// A preset has one point: its own place says more than a ladder's.
+std::string preset_sentence(const WordsInput& input, const Judged& judged) {
+  const CurvePoint point = curve_of(input.runs, judged.turn).front();
+  const Reading time = time_to_reach(curve_of(input.runs, Turn{}), point.rel_mse);
+  return fmt::format("{} takes {:.3g} s for a relMSE of {:.3g}, for which the default takes {} s.",
+                     judged.turn.name(), point.time_s, point.rel_mse, text_of(time));
+}
+
+/// What a turn takes to reach the default's error, or what is known of it.
+std::string time_sentence(const WordsInput& input, const Judged& judged) {
   const Comparison& c = judged.comparison;
   const std::string name = judged.turn.name();
   const Reading& time = c.time_ratio;
+  if (judged.turn.knob == "quality") return preset_sentence(input, judged);
   if (!time.known()) return fmt::format("{}: nothing can be said, its times are unknown.", name);
-  if (time.bound == Bound::at_least) {
-    const std::string error =
-        c.error_ratio.known()
-            ? fmt::format("; in the default's time its error is {} times as large",
-                          text_of(c.error_ratio))
-            : "";
+  if (time.bound == Bound::at_least)
     return fmt::format(
-        "{} does not reach the default's error at {} samples within its ladder, "
-        "whose end takes {:.3g} times the default's time{}.",
-        name, c.pivot_spp, time.value, error);
-  }
+        "{} does not come to the default's error at {} samples within its ladder, whose end takes "
+        "{} the default's time; after the default's time its relMSE is {} times the default's.",
+        name, c.pivot_spp, share_of_time({time.value}), text_of(c.error_ratio));
   if (c.within_noise())
     return fmt::format(
-        "{} takes the default's time for its error, within noise ({:.3g} of it; {}).", name,
-        time.value, noise_text(judged));
-  return fmt::format("{} reaches the default's error at {} samples in {} of its time.", name,
-                     c.pivot_spp, text_of(time));
+        "{} takes as long as the default for its error, within noise: {:.3g} of its "
+        "time, known to {:.0f} %.",
+        name, time.value, 100 * c.noise);
+  const std::string ladder = c.time_ratio_ladder.known() ? fmt::format(" ({} over the ladder)",
+                                                                       text_of(c.time_ratio_ladder))
+                                                         : "";
+  return fmt::format("{} reaches the default's error at {} samples in {} its time{}.", name,
+                     c.pivot_spp, share_of_time(time), ladder);
 }
 
 std::string samples_sentence(const std::vector<CurvePoint>& curve) {
@@ -60,6 +68,21 @@ std::string samples_sentence(const std::vector<CurvePoint>& curve) {
       "Samples: from {} to {} a pixel the default takes {:.3g} times as long and "
       "relMSE falls to 1/{:.3g}, as the power {:.2f} of the samples.",
       first.spp, last.spp, last.time_s / first.time_s, first.rel_mse / last.rel_mse, slope);
+}
+
+/// Where more samples hardly lower the error any more, what is left is no noise.
+std::string bias_sentence(const std::vector<CurvePoint>& curve) {
+  constexpr double stalled = -0.25;  // noise alone falls with the power -1
+  if (curve.size() < 2) return "";
+  const CurvePoint &a = curve[curve.size() - 2], &b = curve.back();
+  if (!(a.rel_mse > 0 && b.rel_mse > 0 && b.spp > a.spp)) return "";
+  const double slope = std::log(b.rel_mse / a.rel_mse) / std::log(b.spp / a.spp);
+  if (slope < stalled) return "";
+  return fmt::format(
+      "From {} to {} samples the default's relMSE goes from {:.3g} to {:.3g} only: "
+      "what is left is not noise but what shading, dicing or filtering leave out, "
+      "and more samples do not bring it.",
+      a.spp, b.spp, a.rel_mse, b.rel_mse);
 }
 
 std::vector<Judged> judge(const WordsInput& input, const std::vector<CurvePoint>& other) {
@@ -80,14 +103,14 @@ std::vector<Judged> judge(const WordsInput& input, const std::vector<CurvePoint>
 }
 
 /// The first sentence about knobs: the one that buys most.
-std::string best_sentence(const std::vector<Judged>& list) {
+std::string best_sentence(const WordsInput& input, const std::vector<Judged>& list) {
   if (list.empty()) return "";
   const auto best = std::find_if(list.begin(), list.end(), is_faster);
   if (best == list.end())
     return "No knob but spp buys anything here: no value reaches the default's error in less time "
            "than noise explains.";
   return fmt::format("The knob that buys most here is {}: {}", best->turn.knob,
-                     time_sentence(*best));
+                     time_sentence(input, *best));
 }
 
 std::string front_sentence(const std::vector<Run>& runs) {
@@ -113,6 +136,17 @@ std::string limit_sentence(const WordsInput& input) {
       limited, input.reference_rel_mse);
 }
 
+std::string repeats_sentence(const std::vector<Run>& runs) {
+  const auto once = std::count_if(runs.begin(), runs.end(), [](const Run& run) {
+    return run.ok() && run.frame_s_all.size() < 2;
+  });
+  if (once == 0) return "";
+  return fmt::format(
+      "{} runs were timed once: nothing is known of their noise, and what rests on "
+      "them may be noise.",
+      once);
+}
+
 }  // namespace
 
 std::vector<std::string> describe_trade(const WordsInput& input) {
@@ -126,8 +160,9 @@ std::vector<std::string> describe_trade(const WordsInput& input) {
     return words;
   }
   const std::vector<Judged> list = judge(input, defaults);
-  say(best_sentence(list));
+  say(best_sentence(input, list));
   say(samples_sentence(defaults));
+  say(bias_sentence(defaults));
   say(front_sentence(input.runs));
   const bool best_said = std::any_of(list.begin(), list.end(), is_faster);
   bool skipped = !best_said;
@@ -137,10 +172,10 @@ std::vector<std::string> describe_trade(const WordsInput& input) {
       skipped = true;
       continue;
     }
-    say(time_sentence(judged));
+    say(time_sentence(input, judged));
   }
   say(limit_sentence(input));
-  if (input.repeats < 2) say("Each time was measured once: nothing is known of their noise.");
+  say(repeats_sentence(input.runs));
   return words;
 }
 
