@@ -4,7 +4,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -73,18 +72,12 @@ LedgerContent read_ledger(const std::string& path) {
 }
 
 void check_identity(const std::string& path, const Identity& recorded, const Identity& now) {
-  std::set<std::string> names;
-  for (const auto& [name, value] : recorded) names.insert(name);
-  for (const auto& [name, value] : now) names.insert(name);
-  const auto value = [](const Identity& identity, const std::string& name) {
-    const auto entry = identity.find(name);
-    return entry == identity.end() ? std::string("none") : entry->second;
-  };
   std::string differences;
-  for (const std::string& name : names)
-    if (value(recorded, name) != value(now, name))
-      differences +=
-          fmt::format("\n  {}: was '{}', is '{}'", name, value(recorded, name), value(now, name));
+  for (const auto& [name, value] : now) {
+    const auto entry = recorded.find(name);
+    const std::string was = entry == recorded.end() ? "none" : entry->second;
+    if (was != value) differences += fmt::format("\n  {}: was '{}', is '{}'", name, was, value);
+  }
   if (!differences.empty())
     throw Error(
         fmt::format("{} cannot be resumed, its runs were of another kind:{}\nStart again "

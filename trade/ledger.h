@@ -26,7 +26,7 @@ struct LedgerContent {
 /// Reads a ledger. Throws Error naming file and line for anything but a torn last line.
 LedgerContent read_ledger(const std::string& path);
 
-/// Throws Error naming everything in which the sweep of a ledger was another one.
+/// Throws Error naming everything of `now` in which the sweep of a ledger was another one.
 void check_identity(const std::string& path, const Identity& recorded, const Identity& now);
 
 /// Appends to a ledger. Every line is with the system before append() returns.

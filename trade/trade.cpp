@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -45,6 +47,13 @@ class Trade {
         cancel_(cancel),
         renderer_(program, options.scene, options.common, options.timeout_s, &cancel) {}
 
+  ~Trade() {
+    std::error_code ignored;
+    fs::remove(path("probe.exr"), ignored);
+  }
+  Trade(const Trade&) = delete;
+  Trade& operator=(const Trade&) = delete;
+
   int run();
 
  private:
@@ -56,12 +65,14 @@ class Trade {
   }
   double left_s() const { return options_.budget_s ? *options_.budget_s - elapsed_s() : 1e30; }
 
+  void note_load();
   void probe();
   void list();
   int reference_spp();
   void find_reference();
   Identity identity() const;
-  std::unique_ptr<Ledger> open_ledger(std::vector<Measurement>& before);
+  void read_before();
+  Ledger open_ledger();
   void name_configurations(const std::vector<Measurement>& before);
   SweepOutcome measure_all(Ledger& ledger, const std::vector<Measurement>& before);
   void conclude(const SweepOutcome& outcome);
@@ -72,8 +83,21 @@ class Trade {
   Renderer renderer_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double probe_wall_s_ = 0;
+  std::string reference_hash_, busy_note_;
+  std::optional<LedgerContent> before_;
   TradeTable table_;
 };
+
+/// Times of a busy machine are less sure, and whoever reads them should know.
+void Trade::note_load() {
+  double load = 0;
+  if (getloadavg(&load, 1) != 1 || load < 0.5) return;
+  busy_note_ = fmt::format(
+      "the machine was busy before the first run (load {:.1f}): frame times "
+      "are less sure than on one that is idle",
+      load);
+  say(busy_note_);
+}
 
 /// The default, with the samples that the scene asks for: what is in the scene, and what a frame
 /// costs.
@@ -129,35 +153,43 @@ void Trade::find_reference() {
     request.say = say;
     reference = make_reference(renderer_, request);
   }
+  reference_hash_ = hash_pixels(read_exr(reference.file));
   say(fmt::format("reference{}: {}, its own relMSE {}", reference.cached ? " (cached)" : "",
                   reference.file,
                   reference.rel_mse == reference.rel_mse ? fmt::format("{:.2g}", reference.rel_mse)
                                                          : std::string("unknown")));
-  std::error_code same;
-  if (!fs::equivalent(reference.file, path("reference.exr"), same))
-    fs::copy_file(reference.file, path("reference.exr"), fs::copy_options::overwrite_existing);
 }
 
+/// What can be known before anything is rendered.
 Identity Trade::identity() const {
   return {{"scene hash", table_.scene_hash},
           {"renderer", renderer_.software()},
           {"renderer's bytes", renderer_.build()},
-          {"options of every run", fmt::format("{}", fmt::join(options_.common, " "))},
-          {"reference", hash_pixels(read_exr(path("reference.exr")))}};
+          {"options of every run", fmt::format("{}", fmt::join(options_.common, " "))}};
 }
 
-std::unique_ptr<Ledger> Trade::open_ledger(std::vector<Measurement>& before) {
+/// The runs of before, if they are to be gone on with.
+void Trade::read_before() {
   const std::string file = path("runs.jsonl");
-  if (!options_.resume || !fs::exists(file)) {
-    if (options_.resume) say(fmt::format("nothing to resume in {}: starting anew", file));
-    return std::make_unique<Ledger>(file, identity());
-  }
-  const LedgerContent content = read_ledger(file);
-  check_identity(file, content.identity, identity());
-  if (content.torn) say(fmt::format("{}: the last line is torn and left out", file));
-  before = content.measurements;
-  say(fmt::format("resuming after {} runs", before.size()));
-  return std::make_unique<Ledger>(file, content);
+  if (!options_.resume) return;
+  if (!fs::exists(file)) return say(fmt::format("nothing to resume in {}: starting anew", file));
+  before_ = read_ledger(file);
+  check_identity(file, before_->identity, identity());
+  if (before_->torn) say(fmt::format("{}: the last line is torn and left out", file));
+  say(fmt::format("resuming after {} runs", before_->measurements.size()));
+}
+
+Ledger Trade::open_ledger() {
+  const std::string file = path("runs.jsonl");
+  Identity now = identity();
+  now["reference"] = reference_hash_;
+  if (before_) check_identity(file, before_->identity, now);
+  // Only now: the reference of other runs is not replaced by one that does not belong to them.
+  const std::string& reference = table_.reference.file;
+  std::error_code same;
+  if (!fs::equivalent(reference, path("reference.exr"), same))
+    fs::copy_file(reference, path("reference.exr"), fs::copy_options::overwrite_existing);
+  return before_ ? Ledger(file, *before_) : Ledger(file, now);
 }
 
 /// Configurations that the ledger knows keep their names, others take new ones.
@@ -204,6 +236,7 @@ void Trade::conclude(const SweepOutcome& outcome) {
   for (Run& run : table_.runs)
     run.limited = run.ok() && table_.reference.rel_mse > limiting_share * run.result.rel_mse;
   mark_front(table_.runs);
+  if (!busy_note_.empty()) table_.list.notes.push_back(busy_note_);
   if (!outcome.left_out.empty())
     table_.list.notes.push_back(fmt::format("not run{}: {}",
                                             outcome.cancelled ? "" : ", as the budget was spent",
@@ -238,14 +271,16 @@ int Trade::run() {
   table_.scene = options_.scene;
   table_.software = renderer_.software();
   table_.scene_hash = hash_scene(options_.scene);
+  read_before();
+  note_load();
   probe();
   list();
   find_reference();
-  fs::remove(path("probe.exr"));
-  std::vector<Measurement> before;
-  const std::unique_ptr<Ledger> ledger = open_ledger(before);
+  Ledger ledger = open_ledger();
+  const std::vector<Measurement> before =
+      before_ ? before_->measurements : std::vector<Measurement>();
   name_configurations(before);
-  const SweepOutcome outcome = measure_all(*ledger, before);
+  const SweepOutcome outcome = measure_all(ledger, before);
   conclude(outcome);
   write(outcome);
   if (outcome.cancelled || cancel_) {
