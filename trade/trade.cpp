@@ -33,9 +33,10 @@ namespace {
 /// A run is limited by the reference when the reference's own error is more than this share of
 /// what was measured.
 constexpr double limiting_share = 0.25;
-/// Of a budget, the most that the reference may take; and how much dearer one of its samples is
-/// taken to be than one of the default's.
-constexpr double reference_share = 1.0 / 3.0, reference_cost = 2.0;
+/// Of a budget, the most that the reference may take.
+constexpr double reference_share = 1.0 / 3.0;
+/// Samples per pixel of the short reference that tells what a sample of it costs.
+constexpr int pilot_spp = 2;
 
 void say(const std::string& line) { fmt::print(stderr, "{}\n", line); }
 
@@ -68,6 +69,7 @@ class Trade {
   void note_load();
   void probe();
   void list();
+  double reference_sample_s();
   int reference_spp();
   void find_reference();
   Identity identity() const;
@@ -125,13 +127,25 @@ void Trade::list() {
   for (const std::string& note : table_.list.missing_baselines) say(note);
 }
 
+/// Seconds for each sample per pixel of a reference, from a short one.
+double Trade::reference_sample_s() {
+  std::vector<std::string> options = reference_options(options_.common);
+  options.insert(options.end(), {"--spp", std::to_string(pilot_spp)});
+  const Rendered rendered = renderer_.render(options, path("probe_reference.exr"), left_s());
+  std::error_code ignored;
+  fs::remove(path("probe_reference.exr"), ignored);
+  if (!rendered.failure.empty())
+    throw Error(fmt::format("the reference could not be rendered: {}", rendered.failure));
+  return rendered.process.wall_s / pilot_spp;
+}
+
 int Trade::reference_spp() {
   if (options_.reference_spp) return *options_.reference_spp;
   const int most = std::max(options_.ladder.back(), table_.list.pivot_spp);
   int spp = 16 * most;
-  const double sample_s = reference_cost * probe_wall_s_ / table_.list.pivot_spp;
-  while (options_.budget_s && spp > most && spp * sample_s > reference_share * *options_.budget_s)
-    spp /= 2;
+  if (!options_.budget_s) return spp;
+  const double sample_s = reference_sample_s();
+  while (spp > 2 * pilot_spp && spp * sample_s > reference_share * *options_.budget_s) spp /= 2;
   if (spp < 16 * most)
     table_.list.notes.push_back(
         fmt::format("the reference has {} samples per pixel rather than {}, to fit the budget", spp,
