@@ -25,9 +25,10 @@ TEST_CASE("the hash is FNV-1a") {
 
 TEST_CASE("a scene's hash changes with its file, its archives and its textures, and only then") {
   const TestFolder folder;
-  const std::string scene = folder.write(
-      "s.rib",
-      "Option \"searchpath\" \"texture\" [\"maps:&\"]\nWorldBegin ReadArchive \"a.rib\"\nWorldEnd\n");
+  const std::string scene =
+      folder.write("s.rib",
+                   "Option \"searchpath\" \"texture\" [\"maps:&\"]\nWorldBegin ReadArchive "
+                   "\"a.rib\"\nWorldEnd\n");
   folder.write("a.rib", "ReadArchive \"deeper/b.rib\" # \"unused.rib\"\n");
   folder.write("deeper/b.rib", "Surface \"plastic\" \"string texturename\" [\"wood.tex\"]\n");
   folder.write("maps/wood.tex", "wood");

@@ -19,9 +19,9 @@ SweepRequest request_of(const std::string& knobs) {
   SweepRequest request;
   request.knobs = parse_knobs(knobs);
   request.ladder = {4, 16};
-  request.plan.entries = {{"motion", "yes"},  {"lens", "no"},     {"textures", "no"},
-                          {"shading", "aas"}, {"hider", "auto"},  {"reconstruct", "filter"},
-                          {"area_lights", "no"}, {"bounce", "no"}, {"samples_per_pixel", "16"}};
+  request.plan.entries = {{"motion", "yes"},     {"lens", "no"},    {"textures", "no"},
+                          {"shading", "aas"},    {"hider", "auto"}, {"reconstruct", "filter"},
+                          {"area_lights", "no"}, {"bounce", "no"},  {"samples_per_pixel", "16"}};
   request.has_option = [](const std::string&) { return true; };
   return request;
 }
@@ -36,7 +36,8 @@ Strings labels(const SweepList& list) {
 }  // namespace
 
 TEST_CASE("knobs and values are told apart, and arguments of values from values") {
-  const auto choices = parse_knobs("spp=2:8,hider=shear:dual:2,reconstruct=maaf:9:fsf,shading-rate");
+  const auto choices =
+      parse_knobs("spp=2:8,hider=shear:dual:2,reconstruct=maaf:9:fsf,shading-rate");
   REQUIRE(choices.size() == 4);
   CHECK(choices[0].values == Strings{"2", "8"});
   CHECK(choices[1].values == Strings{"shear", "dual:2"});
@@ -80,9 +81,8 @@ TEST_CASE("knobs that cannot matter are left out with the reason") {
   SweepRequest request = request_of("hider=bbox,texture-filter,reconstruct=aaf");
   const auto noted = [&request](const std::string& part) {
     const Strings notes = list_configurations(request).notes;
-    return std::any_of(notes.begin(), notes.end(), [&part](const std::string& note) {
-      return note.find(part) != note.npos;
-    });
+    return std::any_of(notes.begin(), notes.end(),
+                       [&part](const std::string& note) { return note.find(part) != note.npos; });
   };
   CHECK(noted("texture-filter is left out: no surface has a texture"));
   CHECK_FALSE(noted("hider"));
