@@ -10,19 +10,16 @@
 
 #include "base/error.h"
 #include "engine/command.h"
-#include "engine/frame_files.h"
 #include "images/exr.h"
-#include "trade/against.h"
+#include "trade/conclusion.h"
 #include "trade/content_hash.h"
 #include "trade/folder.h"
 #include "trade/heat_maps.h"
 #include "trade/ledger.h"
 #include "trade/measure.h"
-#include "trade/pareto.h"
 #include "trade/report_page.h"
 #include "trade/schedule.h"
 #include "trade/table.h"
-#include "trade/words.h"
 
 namespace tessera::trade {
 
@@ -30,9 +27,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A run is limited by the reference when the reference's own error is more than this share of
-/// what was measured.
-constexpr double limiting_share = 0.25;
 /// Of a budget, the most that the reference may take.
 constexpr double reference_share = 1.0 / 3.0;
 /// Samples per pixel of the short reference that tells what a sample of it costs.
@@ -77,8 +71,6 @@ class Trade {
   Ledger open_ledger();
   void name_configurations(const std::vector<Measurement>& before);
   SweepOutcome measure_all(Ledger& ledger, const std::vector<Measurement>& before);
-  void conclude(const SweepOutcome& outcome);
-  void write(const SweepOutcome& outcome);
 
   const TradeOptions& options_;
   const std::atomic<bool>& cancel_;
@@ -245,42 +237,6 @@ SweepOutcome Trade::measure_all(Ledger& ledger, const std::vector<Measurement>& 
       [this] { return cancel_.load(); });
 }
 
-void Trade::conclude(const SweepOutcome& outcome) {
-  table_.runs = gather_runs(table_.list.configurations, outcome.measurements);
-  for (Run& run : table_.runs)
-    run.limited = run.ok() && table_.reference.rel_mse > limiting_share * run.result.rel_mse;
-  mark_front(table_.runs);
-  if (!busy_note_.empty()) table_.list.notes.push_back(busy_note_);
-  if (!outcome.left_out.empty())
-    table_.list.notes.push_back(fmt::format("not run{}: {}",
-                                            outcome.cancelled ? "" : ", as the budget was spent",
-                                            fmt::join(outcome.left_out, ", ")));
-  if (outcome.fewer_repeats > 0)
-    table_.list.notes.push_back(fmt::format("{} configurations have fewer than {} repeats",
-                                            outcome.fewer_repeats, options_.repeats));
-  table_.words = describe_trade(
-      {table_.runs, table_.list.turns, table_.list.pivot_spp, table_.reference.rel_mse});
-  if (!options_.baselines.empty())
-    table_.tables.push_back(against_table(table_.runs, table_.list.baselines, table_.list.pivot_spp,
-                                          table_.list.missing_baselines));
-}
-
-void Trade::write(const SweepOutcome& outcome) {
-  if (!options_.report.empty() && !outcome.cancelled)
-    table_.heat_maps = render_heat_maps(renderer_, runs_to_map(table_.runs), path("runs"),
-                                        [this] { return cancel_.load(); });
-  const nlohmann::ordered_json json = json_of(table_);
-  write_text_file(path("trade.json"), json.dump(2) + "\n");
-  write_text_file(path("trade.csv"), csv_of(table_.runs));
-  fmt::print("{}\n", text_of(table_));
-  for (const std::string& sentence : table_.words) fmt::print("- {}\n", sentence);
-  for (const nlohmann::ordered_json& table : table_.tables)
-    fmt::print("\n{}", text_of_extra(table));
-  if (options_.report.empty()) return;
-  fs::create_directories(options_.report);
-  write_report_page(json, options_.output, fs::path(options_.report) / "index.html");
-}
-
 int Trade::run() {
   table_.scene = options_.scene;
   table_.software = renderer_.software();
@@ -295,8 +251,12 @@ int Trade::run() {
       before_ ? before_->measurements : std::vector<Measurement>();
   name_configurations(before);
   const SweepOutcome outcome = measure_all(ledger, before);
-  conclude(outcome);
-  write(outcome);
+  if (!busy_note_.empty()) table_.list.notes.push_back(busy_note_);
+  conclude(options_, outcome, table_);
+  if (!options_.report.empty() && !outcome.cancelled)
+    table_.heat_maps = render_heat_maps(renderer_, runs_to_map(table_.runs), path("runs"),
+                                        [this] { return cancel_.load(); });
+  write_results(options_, table_);
   if (outcome.cancelled || cancel_) {
     say("interrupted; --resume goes on");
     return exit_cancelled;

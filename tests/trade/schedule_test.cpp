@@ -92,6 +92,8 @@ TEST_CASE("a budget takes the cheap before the dear and starts nothing that cann
   CHECK(machine.started[2].first == "spp=16");
   CHECK(outcome.left_out == std::vector<std::string>{"hider=bbox spp=16"});
   CHECK(outcome.fewer_repeats > 0);
+  CHECK(std::none_of(machine.started.begin(), machine.started.end(),
+                     [](const auto& start) { return start.first == "hider=bbox spp=16"; }));
   CHECK(machine.now_s <= settings.end_s);
   // What was left went to repeats.
   CHECK(machine.started.size() > 3);
