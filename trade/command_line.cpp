@@ -57,7 +57,7 @@ void add_what(CLI::App& app, TradeOptions& options, Spoken& spoken) {
       ->type_name("LIST");
   app.add_option("--spp", spoken.ladder,
                  "samples per pixel of every knob's value; the default configuration has a step "
-                 "between each two besides, and the scene's own (4,16,64)")
+                 "between each two besides, and the scene's own count if it lies within (4,16,64)")
       ->type_name("LIST");
   app.add_option("--against", spoken.baselines,
                  "baselines to compare the default with, separated by commas, in a table of their "
@@ -121,7 +121,8 @@ void complete_common(const Spoken& spoken, TradeOptions& options) {
     common.push_back(word.substr(0, equals));
     if (equals != word.npos) common.push_back(word.substr(equals + 1));
   }
-  for (const char* taken : {"-o", "--output", "--stats", "--spp", "--seed", "--heatmap"})
+  for (const char* taken :
+       {"-o", "--output", "--stats", "--spp", "--seed", "--heatmap", "--error", "--time"})
     if (std::find(common.begin(), common.end(), taken) != common.end())
       throw Error(fmt::format("{} cannot be given to every run: the sweep sets it itself", taken));
   options.common = std::move(common);

@@ -14,7 +14,8 @@ class Lister {
  public:
   explicit Lister(const SweepRequest& request) : request_(request) {
     const int scene_spp = std::atoi(request.plan.text("samples_per_pixel").c_str());
-    if (scene_spp > 0) list_.pivot_spp = scene_spp;
+    if (scene_spp > 0) list_.scene_spp = scene_spp;
+    list_.pivot_spp = std::clamp(list_.scene_spp, request.ladder.front(), request.ladder.back());
   }
 
   SweepList list() {
@@ -114,11 +115,11 @@ void Lister::add_baseline(const Baseline& baseline) {
 
 }  // namespace
 
-std::vector<int> default_ladder(const std::vector<int>& ladder, int scene_spp) {
+std::vector<int> default_ladder(const std::vector<int>& ladder, int pivot_spp) {
   std::vector<int> all = ladder;
   for (size_t k = 1; k < ladder.size(); ++k)
     all.push_back(int(std::lround(std::sqrt(double(ladder[k - 1]) * double(ladder[k])))));
-  all.push_back(scene_spp);
+  all.push_back(pivot_spp);
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

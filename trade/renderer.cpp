@@ -78,7 +78,8 @@ Rendered Renderer::render(const std::vector<std::string>& options, const std::st
           "picked, as with -- --frames 1-1");
   }
   fs::remove(statistics, ignored);
-  if (rendered.failure.empty()) fs::remove(log, ignored);
+  // What a failed run said stays beside its image.
+  if (rendered.failure.empty() || rendered.process.cancelled) fs::remove(log, ignored);
   return rendered;
 }
 

@@ -231,7 +231,7 @@ SweepOutcome Trade::measure_all(Ledger& ledger, const std::vector<Measurement>& 
   settings.repeats = options_.repeats;
   if (options_.budget_s) settings.end_s = *options_.budget_s;
   settings.probe_wall_s = probe_wall_s_;
-  settings.probe_spp = table_.list.pivot_spp;
+  settings.probe_spp = table_.list.scene_spp;
   return sweep(
       all, settings, before, runner, [this] { return elapsed_s(); },
       [this] { return cancel_.load(); });

@@ -131,9 +131,9 @@ std::string limit_sentence(const WordsInput& input) {
                                      [](const Run& run) { return run.ok() && run.limited; });
   if (limited == 0) return "";
   return fmt::format(
-      "{} runs are limited by the reference, whose own relMSE is {:.2g}: their errors "
-      "are less sure; raise --reference-spp to tell them apart.",
-      limited, input.reference_rel_mse);
+      "Runs limited by the reference, whose own relMSE is {:.2g}: {}. Their errors are less sure; "
+      "raise --reference-spp to tell them apart.",
+      input.reference_rel_mse, limited);
 }
 
 std::string repeats_sentence(const std::vector<Run>& runs) {
@@ -142,8 +142,7 @@ std::string repeats_sentence(const std::vector<Run>& runs) {
   });
   if (once == 0) return "";
   return fmt::format(
-      "{} runs were timed once: nothing is known of their noise, and what rests on "
-      "them may be noise.",
+      "Runs timed once: {}. Nothing is known of their noise, and what rests on them may be noise.",
       once);
 }
 

@@ -10,8 +10,8 @@ namespace tessera::trade {
 
 struct WordsInput {
   const std::vector<Run>& runs;
-  std::vector<Turn> turns;             ///< swept, the default left out
-  int pivot_spp = 16;                  ///< samples per pixel that the scene itself asks for
+  std::vector<Turn> turns;  ///< swept, the default left out
+  int pivot_spp = 16;       ///< samples per pixel at which others are compared with the default
   double reference_rel_mse = unknown;  ///< the reference's own error
 };
 

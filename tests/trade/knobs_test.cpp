@@ -74,6 +74,9 @@ TEST_CASE("each value is listed once, without the default's own") {
                                 "shading=ds spp=16"});
   CHECK(list.configurations[5].options == Strings{"--spp", "4", "--shading", "aas:share=0.9"});
   CHECK(list.turns.size() == 2);
+  CHECK(list.pivot_spp == 16);
+  request.ladder = {2, 8};
+  CHECK(list_configurations(request).pivot_spp == 8);
   CHECK(list.baselines.size() == 2);
 }
 

@@ -84,8 +84,8 @@ TEST_CASE("biases, references at their limit and single repeats are pointed at")
   runs[0].frame_s_all = {1};
   const std::string words = words_of(runs, {}, 0.004);
   CHECK_THAT(words, Contains("From 16 to 64 samples the default's relMSE goes from 0.01 to 0.009"));
-  CHECK_THAT(words, Contains("1 runs are limited by the reference, whose own relMSE is 0.004"));
-  CHECK_THAT(words, Contains("1 runs were timed once"));
+  CHECK_THAT(words, Contains("Runs limited by the reference, whose own relMSE is 0.004: 1"));
+  CHECK_THAT(words, Contains("Runs timed once: 1"));
 }
 
 TEST_CASE("a default that failed leaves nothing to compare with") {
