@@ -24,8 +24,9 @@ void prepare_folder(const std::string& output, bool resume, bool fresh) {
         fmt::format("{} holds runs already: --resume goes on with them, --fresh forgets "
                     "them, -o writes elsewhere",
                     folder.string()));
-  if (fresh) {
-    for (const char* name : {"runs.jsonl", "runs", "trade.json", "trade.csv", "reference.exr"})
+  // Only what is a sweep's own: a folder without a ledger may hold anything.
+  if (fresh && fs::exists(ledger)) {
+    for (const char* name : {"runs.jsonl", "runs", "trade.json", "trade.csv"})
       fs::remove_all(folder / name, error);
   }
   fs::create_directories(folder / "runs", error);

@@ -14,9 +14,9 @@ namespace tessera::trade {
 /// The runs to map: those on the front and the default with the middle one of its sample counts.
 std::vector<const Run*> runs_to_map(const std::vector<Run>& runs);
 
-/// Renders each of the runs once more for each measure, untimed, into FOLDER/ID.MEASURE.exr, a
-/// channel of the measure's name in it. Returns (id, measure) of those that went well; measures
-/// that a run cannot be mapped by are left out.
+/// Renders each of the runs once more for each measure, untimed, into FOLDER/ID.MEASURE.exr, with
+/// a channel heatmap.MEASURE. Returns (id, measure) of those that went well; measures that a run
+/// cannot be mapped by are left out.
 std::vector<std::pair<std::string, std::string>> render_heat_maps(
     const Renderer& renderer, const std::vector<const Run*>& runs, const std::string& folder,
     const std::function<bool()>& cancelled);

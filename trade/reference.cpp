@@ -126,7 +126,11 @@ MeanOfTwo mean_of_two(const Image& a, const Image& b) {
 Reference make_reference(const Renderer& renderer, const ReferenceRequest& request) {
   std::vector<std::string> options = reference_options(renderer.common());
   options.insert(options.end(), {"--spp", std::to_string(std::max(request.spp / 2, 1))});
-  fs::create_directories(request.cache);
+  std::error_code error;
+  fs::create_directories(request.cache, error);
+  if (error)
+    throw Error(fmt::format("cannot keep references in {}: {}; --cache names another folder",
+                            request.cache, error.message()));
   const std::string file =
       (fs::path(request.cache) / (cache_key(renderer, request, options) + ".exr")).string();
   Reference reference;

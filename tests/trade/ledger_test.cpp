@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "tests/trade/trade_fixtures.h"
+#include "trade/folder.h"
 #include "trade/ledger.h"
 
 using namespace tessera;
@@ -100,4 +101,22 @@ TEST_CASE("repeats make one run: medians of times, and a failed one when a bit d
   CHECK_FALSE(run.ok());
   CHECK_THAT(run.result.error, Contains("repeat 2 gave another image"));
   CHECK_FALSE(gather_runs(all, {})[0].measured);
+}
+
+TEST_CASE("a folder with runs is kept unless it is said otherwise, and what is no sweep is kept") {
+  const TestFolder folder;
+  const std::string output = folder / "deep/out";
+  prepare_folder(output, false, false);
+  const std::string image = folder.write("deep/out/runs/0001.exr", "image");
+  prepare_folder(output, false, true);
+  CHECK(text_in(image) == "image");
+  folder.write("deep/out/runs.jsonl", "{}\n");
+  CHECK_THROWS_WITH(prepare_folder(output, false, false), Contains("--resume"));
+  prepare_folder(output, true, false);
+  CHECK(text_in(image) == "image");
+  prepare_folder(output, false, true);
+  CHECK_FALSE(std::filesystem::exists(image));
+  CHECK_FALSE(std::filesystem::exists(folder / "deep/out/runs.jsonl"));
+  CHECK(std::filesystem::is_directory(folder / "deep/out/runs"));
+  CHECK_THROWS_WITH(prepare_folder(folder.write("file", ""), false, false), Contains("no folder"));
 }
