@@ -120,7 +120,7 @@ void wait_for(pid_t id, const ProcessLimits& limits, ProcessResult& result) {
 
 std::string ProcessResult::failure() const {
   if (ok()) return "";
-  if (timed_out) return fmt::format("stopped after {:.0f} s: the time limit of a run", wall_s);
+  if (timed_out) return fmt::format("stopped after {:.3g} s: the time limit of a run", wall_s);
   if (cancelled) return "interrupted";
   std::string last;
   std::istringstream lines(output);
