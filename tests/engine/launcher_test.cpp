@@ -35,8 +35,8 @@ class Checkout {
  public:
   explicit Checkout(const std::string& name) : folder_(name) {
     for (const char* source : {"base", "images", "cameras", "scenes/examples", "dice", "hide",
-                               "shade", "rays", "reconstruct", "engine", "report", "bench",
-                               "tests"}) {
+                               "shade", "rays", "reconstruct", "engine", "trade", "report",
+                               "bench", "tests"}) {
       folder_.write(std::string("checkout/") + source + "/part.cpp", "");
     }
     folder_.write("checkout/CMakeLists.txt", "");

@@ -1,0 +1,153 @@
+// Sweeps with a clock and a runner made up: no process is started.
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "tests/trade/trade_fixtures.h"
+#include "trade/schedule.h"
+
+using namespace tessera::trade;
+
+namespace {
+
+// Processes that take a known time on a clock of their own, and may fail or be interrupted.
+class FakeMachine {
+ public:
+  std::map<std::string, double> cost_s;  // by label; 1 where there is none
+  std::set<std::string> failing;
+  int cancel_after = 1 << 30;
+  std::vector<std::pair<std::string, int>> started;
+  double now_s = 0;
+
+  SweepOutcome sweep(const std::vector<Configuration>& all, const SweepSettings& settings,
+                     const std::vector<Measurement>& before = {}) {
+    return tessera::trade::sweep(
+        all, settings, before,
+        [this](const Configuration& c, int round, double limit_s) {
+          return run(c, round, limit_s);
+        },
+        [this] { return now_s; }, [this] { return int(started.size()) >= cancel_after; });
+  }
+
+ private:
+  Measurement run(const Configuration& c, int round, double limit_s) {
+    started.emplace_back(c.label(), round);
+    const double cost = cost_s.count(c.label()) ? cost_s[c.label()] : 1;
+    now_s += std::min(cost, limit_s);
+    Measurement m = measurement(c.label(), round, cost, 1);
+    m.stopped = cost > limit_s;
+    m.ok = !failing.count(c.label());
+    return m;
+  }
+};
+
+std::vector<Configuration> some_configurations() {
+  return {configuration({}, 4), configuration({}, 16), configuration({"hider", "bbox"}, 4),
+          configuration({"hider", "bbox"}, 16)};
+}
+
+}  // namespace
+
+TEST_CASE("every configuration runs once in each round, in another order") {
+  FakeMachine machine;
+  SweepSettings settings;
+  settings.repeats = 5;
+  const auto all = some_configurations();
+  const SweepOutcome outcome = machine.sweep(all, settings);
+  CHECK(outcome.measurements.size() == 20);
+  CHECK(outcome.left_out.empty());
+  std::set<std::vector<std::string>> orders;
+  for (int round = 0; round < 5; ++round) {
+    std::vector<std::string> order;
+    for (int i = 0; i < 4; ++i) {
+      CHECK(machine.started[size_t(4 * round + i)].second == round);
+      order.push_back(machine.started[size_t(4 * round + i)].first);
+    }
+    orders.insert(order);
+    CHECK(std::set<std::string>(order.begin(), order.end()).size() == 4);
+  }
+  CHECK(orders.size() > 1);
+  FakeMachine again;
+  again.sweep(all, settings);
+  CHECK(again.started == machine.started);
+}
+
+TEST_CASE("a budget takes the cheap before the dear and starts nothing that cannot fit") {
+  FakeMachine machine;
+  machine.cost_s = {
+      {"spp=4", 1}, {"spp=16", 4}, {"hider=bbox spp=4", 3}, {"hider=bbox spp=16", 12}};
+  SweepSettings settings;
+  settings.repeats = 3;
+  settings.end_s = 15;
+  settings.probe_wall_s = 4;
+  settings.probe_spp = 16;
+  const SweepOutcome outcome = machine.sweep(some_configurations(), settings);
+  // 1 + 3 + 4 = 8 s; boxes at 16 samples are predicted to take 12 s of the 7 that are left.
+  REQUIRE(machine.started.size() >= 3);
+  CHECK(machine.started[0].first == "spp=4");
+  CHECK(machine.started[1].first == "hider=bbox spp=4");
+  CHECK(machine.started[2].first == "spp=16");
+  CHECK(outcome.left_out == std::vector<std::string>{"hider=bbox spp=16"});
+  CHECK(outcome.fewer_repeats > 0);
+  CHECK(std::none_of(machine.started.begin(), machine.started.end(),
+                     [](const auto& start) { return start.first == "hider=bbox spp=16"; }));
+  CHECK(machine.now_s <= settings.end_s);
+  // What was left went to repeats.
+  CHECK(machine.started.size() > 3);
+}
+
+TEST_CASE("what takes longer than predicted is given up at the end, as if not started") {
+  FakeMachine machine;
+  machine.cost_s["hider=bbox spp=16"] = 1000;
+  SweepSettings settings;
+  settings.repeats = 1;
+  settings.end_s = 50;
+  settings.probe_wall_s = 1;
+  settings.probe_spp = 16;
+  const SweepOutcome outcome = machine.sweep(some_configurations(), settings);
+  CHECK(machine.now_s <= 50);
+  CHECK(outcome.measurements.size() == 3);
+  CHECK(outcome.left_out == std::vector<std::string>{"hider=bbox spp=16"});
+  CHECK_FALSE(outcome.cancelled);
+}
+
+TEST_CASE("failed configurations are not repeated and do not end the sweep") {
+  FakeMachine machine;
+  machine.failing.insert("spp=16");
+  SweepSettings settings;
+  const SweepOutcome outcome = machine.sweep(some_configurations(), settings);
+  CHECK(std::count_if(machine.started.begin(), machine.started.end(),
+                      [](const auto& start) { return start.first == "spp=16"; }) == 1);
+  CHECK(outcome.measurements.size() == 3 * 3 + 1);
+}
+
+TEST_CASE("an interrupted sweep goes on where it was, and nothing runs twice") {
+  FakeMachine whole, first, second;
+  const auto all = some_configurations();
+  const SweepSettings settings;
+  whole.sweep(all, settings);
+  first.cancel_after = 5;
+  const SweepOutcome half = first.sweep(all, settings);
+  CHECK(half.cancelled);
+  CHECK(half.measurements.size() == 5);
+  const SweepOutcome rest = second.sweep(all, settings, half.measurements);
+  CHECK_FALSE(rest.cancelled);
+  CHECK(rest.measurements.size() == 12);
+  std::vector<std::pair<std::string, int>> both = first.started;
+  both.insert(both.end(), second.started.begin(), second.started.end());
+  CHECK(both == whole.started);
+}
+
+TEST_CASE("costs are predicted from what is nearest") {
+  CostModel costs(2, 16);
+  const auto all = some_configurations();
+  CHECK(costs.predict_s(all[0]) == Approx(0.5));
+  CHECK(costs.predict_s(all[3]) == Approx(2.0));
+  costs.add(all[2], 3);
+  CHECK(costs.predict_s(all[3]) == Approx(12.0));
+  CHECK(costs.predict_s(all[2]) == 3);
+  CHECK(costs.predict_s(all[1]) == Approx(2.0));
+}

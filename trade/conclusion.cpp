@@ -1,0 +1,60 @@
+#include "trade/conclusion.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "engine/frame_files.h"
+#include "report/report.h"
+#include "trade/against.h"
+#include "trade/pareto.h"
+#include "trade/words.h"
+
+namespace tessera::trade {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A run is limited by the reference when the reference's own error is more than this share of
+/// what was measured.
+constexpr double limiting_share = 0.25;
+
+}  // namespace
+
+void conclude(const TradeOptions& options, const SweepOutcome& outcome, TradeTable& table) {
+  table.runs = gather_runs(table.list.configurations, outcome.measurements);
+  for (Run& run : table.runs)
+    run.limited = run.ok() && table.reference.rel_mse > limiting_share * run.result.rel_mse;
+  mark_front(table.runs);
+  if (!outcome.left_out.empty())
+    table.list.notes.push_back(fmt::format("not run{}: {}",
+                                           outcome.cancelled ? "" : ", as the budget was spent",
+                                           fmt::join(outcome.left_out, ", ")));
+  if (outcome.fewer_repeats > 0)
+    table.list.notes.push_back(fmt::format("{} configurations have fewer than {} repeats",
+                                           outcome.fewer_repeats, options.repeats));
+  table.words =
+      describe_trade({table.runs, table.list.turns, table.list.pivot_spp, table.reference.rel_mse});
+  if (!options.baselines.empty())
+    table.tables.push_back(against_table(table.runs, table.list.baselines, table.list.pivot_spp,
+                                         table.list.missing_baselines));
+}
+
+void write_results(const TradeOptions& options, const TradeTable& table) {
+  using Json = nlohmann::ordered_json;
+  const fs::path folder = options.output;
+  const Json json = json_of(table);
+  // What a failed run said may be anything: bytes that are no UTF-8 are replaced.
+  write_text_file((folder / "trade.json").string(),
+                  json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text_file((folder / "trade.csv").string(), csv_of(table.runs));
+  fmt::print("{}\n", text_of(table));
+  for (const std::string& sentence : table.words) fmt::print("- {}\n", sentence);
+  for (const Json& extra : table.tables) fmt::print("\n{}", text_of_extra(extra));
+  if (options.report.empty()) return;
+  fs::create_directories(options.report);
+  write_report(json, folder, fs::path(options.report) / "index.html");
+}
+
+}  // namespace tessera::trade
