@@ -102,8 +102,14 @@ void add_reference(CLI::App& app, TradeOptions& options) {
   app.add_option("--cache", options.cache,
                  "folder where references are kept for other sweeps (" + default_cache() + ")")
       ->type_name("DIR");
-  app.add_option("--report", options.report, "write a page that shows it all, DIR/index.html")
-      ->type_name("DIR");
+  CLI::Option* report =
+      app.add_option("--report", options.report, "write a page that shows it all, DIR/index.html")
+          ->type_name("DIR");
+  app.add_option("--tables", options.tables,
+                 "what ./tessera bench NAME --json wrote (extremes, needs, ...), to show on the "
+                 "page, too")
+      ->needs(report)
+      ->type_name("FILE.json ...");
 }
 
 /// Options of every run: those of this program that the renderer has too, and those after "--".

@@ -24,6 +24,7 @@ struct TradeOptions {
   std::string cache;                 ///< folder of references
   bool resume = false, fresh = false;
   std::string report;               ///< folder; empty: no page
+  std::vector<std::string> tables;  ///< files of benchmarks' rows to show on the page
   std::vector<std::string> common;  ///< options of every run and of the reference
 };
 

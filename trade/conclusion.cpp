@@ -7,6 +7,7 @@
 #include "engine/frame_files.h"
 #include "report/report.h"
 #include "trade/against.h"
+#include "trade/bench_table.h"
 #include "trade/pareto.h"
 #include "trade/words.h"
 
@@ -39,6 +40,8 @@ void conclude(const TradeOptions& options, const SweepOutcome& outcome, TradeTab
   if (!options.baselines.empty())
     table.tables.push_back(against_table(table.runs, table.list.baselines, table.list.pivot_spp,
                                          table.list.missing_baselines));
+  for (const std::string& file : options.tables)
+    table.bench_tables.push_back(read_bench_table(file));
 }
 
 void write_results(const TradeOptions& options, const TradeTable& table) {

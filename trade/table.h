@@ -22,6 +22,7 @@ struct TradeTable {
   std::vector<Run> runs;
   std::vector<std::string> words;
   std::vector<nlohmann::ordered_json> tables;                  ///< title, columns, rows, notes
+  std::vector<nlohmann::ordered_json> bench_tables;            ///< likewise, for the page alone
   std::vector<std::pair<std::string, std::string>> heat_maps;  ///< (id of a run, measure)
 };
 

@@ -88,6 +88,8 @@ Json json_of(const TradeTable& table) {
   Json runs = Json::array();
   for (const Run& run : table.runs) runs.push_back(run_json(run, table));
   const Reference& reference = table.reference;
+  Json tables = table.tables;
+  for (const Json& bench : table.bench_tables) tables.push_back(bench);
   return {{"version", 1},
           {"scene", table.scene},
           {"scene_hash", table.scene_hash},
@@ -104,7 +106,7 @@ Json json_of(const TradeTable& table) {
           {"runs", runs},
           {"words", table.words},
           {"notes", table.list.notes},
-          {"tables", table.tables}};
+          {"tables", tables}};
 }
 
 }  // namespace tessera::trade

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "engine/command.h"
 #include "images/exr.h"
+#include "trade/bench_table.h"
 #include "trade/conclusion.h"
 #include "trade/content_hash.h"
 #include "trade/folder.h"
@@ -271,6 +272,7 @@ int run_trade(const TradeOptions& options, const std::string& program,
               const std::atomic<bool>& cancel) {
   // Before anything is made: a scene that is not there leaves no folder behind.
   ContentHash().add_file(options.scene);
+  for (const std::string& file : options.tables) read_bench_table(file);
   prepare_folder(options.output, options.resume, options.fresh);
   try {
     return Trade(options, program, cancel).run();
