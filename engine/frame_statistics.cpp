@@ -69,7 +69,7 @@ void FrameStatistics::add(const BucketRenderer& worker) {
 
 void FrameStatistics::add(const Reconstruction& reconstruction) {
   merge_counters(film_, reconstruction.counters());
-  filter_s_ = reconstruction.filter_s();
+  filter_s_ += reconstruction.filter_s();
   bound_samples_ = reconstruction.bound_samples();
 }
 

@@ -13,6 +13,11 @@ namespace tessera {
 
 struct Settings {
   std::optional<int> samples_per_pixel;
+  /// Samples are taken until the frame's relative error is estimated to be below this
+  /// (engine/accurate_frame.h), or until the mean of samples per pixel comes to max_samples.
+  std::optional<double> error;
+  std::optional<int> max_samples;     ///< only with `error` or `time_s`; unset: 1024
+  std::optional<double> time_s;       ///< as many samples as fit into a frame of so many seconds
   std::optional<float> shading_rate;  ///< pixels^2; replaces every surface's own
   std::optional<float> dicing_rate;   ///< pixels^2; of micropolygons, whatever ShadingRate
   std::optional<float> motion_factor, focus_factor;  ///< replace GeometricApproximation's

@@ -16,6 +16,8 @@ namespace tessera {
 namespace {
 
 constexpr int max_samples_per_pixel = 1 << 16;
+constexpr double max_error = 1e6;
+constexpr double max_time_s = 1e7;
 constexpr int max_extra_samples = 4096;
 constexpr int max_resolution = 1 << 15;
 constexpr int max_bucket_size = 4096;
@@ -73,6 +75,17 @@ CLI::Validator number_between(float low, float high) {
       fmt::format("[{} - {}]", low, high));
 }
 
+/// A number above 0 and up to `high`.
+CLI::Validator number_above_0(double high) {
+  return CLI::Validator(
+      [high](std::string& text) -> std::string {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value > 0 && value <= high) return "";
+        return fmt::format("'{}': expected a number above 0 and up to {}", text, high);
+      },
+      fmt::format("(0 - {}]", high));
+}
+
 /// As one_of() the methods for distribution effects, and "filter" for none of them.
 CLI::Validator reconstruction() {
   return CLI::Validator(
@@ -83,6 +96,40 @@ CLI::Validator reconstruction() {
         return problem.empty() ? problem : problem + " filter";
       },
       "NAME");
+}
+
+/// How many samples: so many, or as many as something takes.
+void add_sample_options(CLI::App& app, Settings& settings) {
+  CLI::Option* samples = app.add_option("--spp", settings.samples_per_pixel, "samples per pixel")
+                             ->check(CLI::Range(1, max_samples_per_pixel))
+                             ->type_name("N");
+  CLI::Option* error =
+      app.add_option(
+             "--error", settings.error,
+             "as many samples as it takes, more of them where there is more noise: until "
+             "the root of the mean of variance / (value^2 + 0.01), over pixels and R, G, B, "
+             "is estimated to be E or less")
+          ->check(number_above_0(max_error))
+          ->excludes(samples)
+          ->type_name("E");
+  CLI::Option* time =
+      app.add_option("--time", settings.time_s,
+                     "as many samples as fit into a frame of so many seconds, placed as with "
+                     "--error; the image depends on how fast the machine was. With both, the first "
+                     "to be reached counts")
+          ->check(number_above_0(max_time_s))
+          ->excludes(samples)
+          ->type_name("SECONDS");
+  app.add_option_function<int>(
+         "--max-spp",
+         [&settings, error, time](const int& samples_at_most) {
+           if (error->count() + time->count() == 0)
+             throw CLI::RequiresError("--max-spp", "--error or --time");
+           settings.max_samples = samples_at_most;
+         },
+         "most samples per pixel with --error and --time, the mean over pixels (1024)")
+      ->check(CLI::Range(2, max_samples_per_pixel))
+      ->type_name("N");
 }
 
 void add_rate_options(CLI::App& app, Settings& settings) {
@@ -175,9 +222,7 @@ std::string list_registry(const char* title, const Registry& registry) {
 }  // namespace
 
 void add_settings_options(CLI::App& app, Settings& settings) {
-  app.add_option("--spp", settings.samples_per_pixel, "samples per pixel")
-      ->check(CLI::Range(1, max_samples_per_pixel))
-      ->type_name("N");
+  add_sample_options(app, settings);
   app.add_option("--extra-samples", settings.extra_samples,
                  "most samples a pixel may have besides, where a filter for distribution effects "
                  "runs and the focal plane is in it (100)")

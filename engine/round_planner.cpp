@@ -1,0 +1,100 @@
+#include "engine/round_planner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "engine/settings.h"
+
+namespace tessera {
+namespace {
+
+/// Samples a pixel of each of the first two passes.
+constexpr double first_samples = 4;
+
+/// A round has at most this many times the samples of all before: what they tell of the noise is
+/// noise itself, and how it falls with samples is not known before it has been tried.
+constexpr double most_growth = 4;
+
+/// Rounds aim a little below the target, so that chance does not make them miss it every other
+/// time.
+constexpr double aim = 0.97;
+
+/// Share of the remaining time that a round may take, as it is predicted: cores are shared.
+constexpr double time_share = 0.92;
+
+/// Share of the time asked for that is not worth another round.
+constexpr double time_left_over = 0.04;
+
+constexpr double max_time_s = 1e7;
+
+void check_above_0(const char* what, double value, double high) {
+  if (!(value > 0) || value > high)
+    throw Error(fmt::format("{} must be above 0 and at most {}, found {}", what, high, value));
+}
+
+}  // namespace
+
+AccuracyTarget accuracy_target(const Settings& settings) {
+  AccuracyTarget target{settings.error, settings.time_s};
+  if (settings.max_samples) target.max_samples = *settings.max_samples;
+  if (!target.error && !target.time_s && settings.max_samples)
+    throw Error("a limit of the samples needs an error or a time that they are limited for");
+  if (settings.samples_per_pixel && (target.error || target.time_s))
+    throw Error(
+        "samples per pixel are found by the error or the time that is asked for; expected one of "
+        "them, not both");
+  if (target.error) check_above_0("error", *target.error, 1e6);
+  if (target.time_s) check_above_0("time in seconds", *target.time_s, max_time_s);
+  if (target.max_samples < 2 || target.max_samples > 65536)
+    throw Error(fmt::format("the limit of samples per pixel must lie between 2 and 65536, found {}",
+                            target.max_samples));
+  return target;
+}
+
+RoundPlanner::RoundPlanner(const AccuracyTarget& target, double least_pass_samples,
+                           double reserve_s)
+    : target_(target), least_pass_samples_(least_pass_samples), reserve_s_(reserve_s) {}
+
+double RoundPlanner::first_pass_samples() const {
+  double samples = first_samples;
+  while (2 * samples > target_.max_samples && samples > least_pass_samples_) samples /= 2;
+  return std::max(samples, least_pass_samples_);
+}
+
+std::optional<RoundRequest> RoundPlanner::next(const RoundsSoFar& so_far) {
+  RoundRequest request;
+  if (target_.error) {
+    if (so_far.error_squared <= *target_.error * *target_.error) {
+      end_ = RoundsEnd::error_reached;
+      return std::nullopt;
+    }
+    // Inverses of squared errors add up.
+    const double wanted = aim * *target_.error * aim * *target_.error;
+    request.error_squared = 1 / (1 / wanted - 1 / so_far.error_squared);
+  }
+  const double left = target_.max_samples - so_far.mean_samples;
+  const double affordable = affordable_samples(so_far);
+  if (std::min(left, affordable) < 2 * least_pass_samples_) {
+    end_ = left < affordable ? RoundsEnd::samples_spent : RoundsEnd::time_spent;
+    return std::nullopt;
+  }
+  request.most_pass_samples =
+      0.5 * std::min({left, affordable,
+                      std::max(most_growth * so_far.mean_samples, 2 * least_pass_samples_)});
+  return request;
+}
+
+/// Samples a pixel that the time left has room for.
+double RoundPlanner::affordable_samples(const RoundsSoFar& so_far) const {
+  if (!target_.time_s) return std::numeric_limits<double>::infinity();
+  const double left_s = *target_.time_s - reserve_s_ - so_far.elapsed_s;
+  if (left_s <= time_left_over * *target_.time_s) return 0;
+  const double sample_s = so_far.last_pass_s / std::max(so_far.last_pass_samples, 1e-3);
+  return sample_s > 0 ? time_share * left_s / sample_s : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace tessera
