@@ -35,7 +35,8 @@ class Rounds {
       const auto request = planner_.next(so_far());
       if (!request) break;
       allocation = allocate(smoothed(mean_.noise()), passes_.sampled(), request->error_squared,
-                            {lowest_level(), request->most_pass_samples, passes_.adaptive()});
+                            {lowest_level(), request->least_pass_samples,
+                             request->most_pass_samples, passes_.adaptive()});
     }
     if (mean_.empty()) return passes_.finish(std::move(interrupted_));
     warn();

@@ -17,7 +17,11 @@ constexpr double first_samples = 4;
 
 /// A round has at most this many times the samples of all before: what they tell of the noise is
 /// noise itself, and how it falls with samples is not known before it has been tried.
-constexpr double most_growth = 4;
+constexpr double most_growth = 8;
+
+/// And at least this many times, however little is missing: few samples at a time are badly
+/// stratified.
+constexpr double least_growth = 0.25;
 
 /// Rounds aim a little below the target, so that chance does not make them miss it every other
 /// time.
@@ -85,6 +89,8 @@ std::optional<RoundRequest> RoundPlanner::next(const RoundsSoFar& so_far) {
   request.most_pass_samples =
       0.5 * std::min({left, affordable,
                       std::max(most_growth * so_far.mean_samples, 2 * least_pass_samples_)});
+  request.least_pass_samples =
+      std::min(request.most_pass_samples, 0.5 * least_growth * so_far.mean_samples);
   return request;
 }
 

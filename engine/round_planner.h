@@ -28,10 +28,11 @@ struct RoundsSoFar {
 };
 
 /// What a round is for: no more samples than bring its own squared error down to `error_squared`,
-/// and none beyond `most_pass_samples` a pixel in each of its two passes.
+/// unless these are fewer than `least_pass_samples` a pixel in each of its two passes, and none
+/// beyond `most_pass_samples`.
 struct RoundRequest {
   double error_squared = 0;
-  double most_pass_samples = 0;
+  double least_pass_samples = 0, most_pass_samples = 0;
 };
 
 enum class RoundsEnd { none, error_reached, samples_spent, time_spent };

@@ -110,7 +110,8 @@ double expected_error_squared(const PixelNoise& noise, const SampleAllocation& a
 SampleAllocation allocate(const PixelNoise& noise, const PixelRect& rect, double error_squared,
                           const AllocationLimits& limits) {
   const auto enough = [&](const SampleAllocation& a) {
-    return expected_error_squared(noise, a) <= error_squared;
+    return a.mean_samples() >= limits.least_mean_samples &&
+           expected_error_squared(noise, a) <= error_squared;
   };
   const auto affordable = [&](const SampleAllocation& a) {
     return a.mean_samples() <= limits.most_mean_samples;

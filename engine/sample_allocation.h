@@ -47,8 +47,9 @@ PixelNoise smoothed(const PixelNoise& noise);
 /// Bounds of an allocation.
 struct AllocationLimits {
   int lowest_level = 0;
-  double most_mean_samples = 1;  ///< mean over the pixels; `lowest_level` everywhere may exceed it
-  bool adaptive = true;          ///< false: all pixels alike
+  double least_mean_samples = 0;  ///< at most most_mean_samples
+  double most_mean_samples = 1;   ///< mean over the pixels; `lowest_level` everywhere may exceed it
+  bool adaptive = true;           ///< false: all pixels alike
 };
 
 /// The mean over noise.rect of variance / samples: what the allocation, which covers noise.rect,
