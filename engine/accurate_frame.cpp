@@ -26,7 +26,8 @@ class Rounds {
         diagnostics_(diagnostics),
         target_(accuracy_target(settings)),
         mean_(passes.groups()),
-        planner_(target_, double(1 << lowest_level()), write_s()) {}
+        planner_(target_, double(1 << lowest_level()), write_s(),
+                 passes.plan().filters_distribution()) {}
 
   FrameResult render() {
     SampleAllocation allocation = even_allocation(
@@ -40,7 +41,7 @@ class Rounds {
     }
     if (mean_.empty()) return passes_.finish(std::move(interrupted_));
     warn();
-    return passes_.finish({mean_.take_image(), complete_}, statistics());
+    return passes_.finish({mean_.take_image(), {}, complete_}, statistics());
   }
 
  private:
@@ -64,12 +65,13 @@ class Rounds {
   /// False when it was cancelled: the rounds before make the image, if there are any.
   bool add_round(const SampleAllocation& allocation) {
     PassResult a = pass(allocation);
-    PassResult b = a.complete ? pass(allocation) : PassResult{{}, false};
+    PassResult b = a.complete ? pass(allocation) : PassResult{{}, {}, false};
     complete_ = a.complete && b.complete;
     if (complete_)
-      mean_.add(std::move(a.image), std::move(b.image), allocation);
+      mean_.add({std::move(a.image), std::move(b.image), std::move(a.plain), std::move(b.plain)},
+                allocation);
     else
-      interrupted_ = {std::move(a.image), false};
+      interrupted_ = {std::move(a.image), {}, false};
     return complete_;
   }
 

@@ -1,5 +1,6 @@
 #include "engine/frame_passes.h"
 
+#include <algorithm>
 #include <ctime>
 
 #include <fmt/chrono.h>
@@ -44,6 +45,39 @@ void add_matrices(FrameResult& frame, const Camera& camera) {
   store("worldToCamera", maps.camera_from_world);
   store("worldToNDC", maps.ndc_from_world);
 }
+
+/// What the film alone makes of the colours that another reconstruction gets, too.
+class PlainColours final : public Reconstruction {
+ public:
+  PlainColours(Reconstruction& filtered, const FilmSettings& settings)
+      : filtered_(filtered),
+        group_(
+            size_t(std::ranges::find(settings.groups, &find_aov("rgb")) - settings.groups.begin())),
+        film_(of_colours(settings)) {}
+
+  void add_bucket(int i, int j, SampleValues&& values) override {
+    SampleValues colours;
+    colours.rect = values.rect;
+    colours.samples_per_pixel = values.samples_per_pixel;
+    colours.first_of_pixel = values.first_of_pixel;
+    colours.x = values.x, colours.y = values.y;
+    colours.groups = {values.groups[group_]};
+    film_.add_bucket(i, j, std::move(colours));
+    filtered_.add_bucket(i, j, std::move(values));
+  }
+  Image finish() override { return film_.finish(); }
+  FilmCounters counters() const override { return film_.counters(); }
+
+ private:
+  static FilmSettings of_colours(FilmSettings settings) {
+    settings.groups = {&find_aov("rgb")};
+    return settings;
+  }
+
+  Reconstruction& filtered_;
+  size_t group_;
+  Film film_;
+};
 
 void encode(Image& image, float exposure_gamma) {
   for (const char* name : {"R", "G", "B"})
@@ -113,9 +147,12 @@ PassResult FramePasses::render(const SampleAllocation& allocation, uint32_t seed
 
 PassResult FramePasses::render(const Samples& samples) {
   PassResult result;
-  const auto film = make_reconstruction(
+  const ReconstructionSettings reconstruction =
       reconstruction_settings(plan_, buckets_, camera_, groups_, scene_.options.exposure_gain,
-                              several_ ? 1.0f : scene_.options.exposure_gamma, threads_));
+                              several_ ? 1.0f : scene_.options.exposure_gamma, threads_);
+  const auto film = make_reconstruction(reconstruction);
+  std::optional<PlainColours> plain;
+  if (several_ && plan_.filters_distribution()) plain.emplace(*film, reconstruction.film);
   if (grids_) {
     const FrameParts parts{camera_,
                            buckets_,
@@ -126,7 +163,7 @@ PassResult FramePasses::render(const Samples& samples) {
                            groups_,
                            *grids_,
                            *shading_,
-                           *film,
+                           plain ? static_cast<Reconstruction&>(*plain) : *film,
                            plan_.filters_distribution(),
                            samples.extra,
                            samples.allocation,
@@ -138,6 +175,7 @@ PassResult FramePasses::render(const Samples& samples) {
     result.complete = queue.complete();
   }
   result.image = film->finish();
+  if (plain) result.plain = plain->finish();
   statistics_.add(*film);
   return result;
 }

@@ -18,6 +18,9 @@ namespace tessera {
 /// What a pass over a frame came to.
 struct PassResult {
   Image image;
+  /// R, G and B by the pixel filter alone; only where a method for distribution effects made
+  /// `image`.
+  std::optional<Image> plain;
   bool complete = true;  ///< false after a cancellation
 };
 

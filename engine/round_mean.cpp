@@ -15,57 +15,95 @@ std::array<const std::vector<float>*, 3> colours(const Image& image) {
           &image.find_channel("B")->values};
 }
 
-/// Half of a - b, by colour.
-std::vector<double> half_differences(const Image& a, const Image& b) {
+/// a * A + b * B, by colour.
+std::vector<double> combined(double a, const Image& A, double b, const Image& B) {
   std::vector<double> result;
-  const auto ca = colours(a), cb = colours(b);
+  const auto of_a = colours(A), of_b = colours(B);
   for (size_t c = 0; c < 3; ++c)
-    for (size_t p = 0; p < ca[c]->size(); ++p)
-      result.push_back(0.5 * (double((*ca[c])[p]) - double((*cb[c])[p])));
+    for (size_t p = 0; p < of_a[c]->size(); ++p)
+      result.push_back(a * double((*of_a[c])[p]) + b * double((*of_b[c])[p]));
   return result;
 }
 
-double relative(double difference, double value) {
-  return difference * difference / (value * value + relative_floor);
+void mix(std::vector<double>& to, const std::vector<double>& from, double share) {
+  for (size_t k = 0; k < to.size(); ++k) to[k] += share * (from[k] - to[k]);
+}
+
+/// Mean of square(k, value) / (value^2 + relative_floor) over pixels and colours.
+template <class Square>
+double relative_mean(const Image& image, Square square) {
+  const auto values = colours(image);
+  const size_t pixels = values[0]->size();
+  double sum = 0;
+  for (size_t c = 0; c < 3; ++c)
+    for (size_t p = 0; p < pixels; ++p) {
+      const double value = double((*values[c])[p]);
+      sum += square(c * pixels + p, value) / (value * value + relative_floor);
+    }
+  return pixels > 0 ? sum / double(3 * pixels) : 0.0;
 }
 
 }  // namespace
 
-void RoundMean::add(Image&& a, Image&& b, const SampleAllocation& allocation) {
-  Differences newest = half_differences(a, b);
-  take_closest(a, b);
-  average(a, b, 0.5);
-  const size_t pixels = size_t(a.data_window.pixel_count());
-  if (empty()) {
-    samples_.assign(pixels, 0);
-    image_ = std::move(a);
-    differences_ = newest;
-  } else {
-    const double old_error = relative_error_squared(differences_, a);
-    const double new_error = relative_error_squared(newest, a);
-    const double both = old_error + new_error;
-    const double passes = 2 * allocation.mean_samples();
-    const double share =
-        both > 0 ? old_error / both : passes / std::max(passes + mean_samples(), 1.0);
-    take_closest(image_, a);
-    average(image_, a, share);
-    for (size_t k = 0; k < newest.size(); ++k)
-      differences_[k] += share * (newest[k] - differences_[k]);
+double RoundMean::Estimate::variance() const {
+  return relative_mean(image, [&](size_t k, double) { return differences[k] * differences[k]; });
+}
+
+double RoundMean::Estimate::error_squared() const {
+  if (plain.empty()) return variance();
+  const double biased = relative_mean(image, [&](size_t k, double value) {
+    const double to_plain = value - plain[k], noise = plain_differences[k];
+    return to_plain * to_plain - noise * noise + 2 * differences[k] * noise;
+  });
+  return std::max(biased, variance());
+}
+
+void RoundMean::add(RoundImages&& round, const SampleAllocation& allocation) {
+  Estimate newest;
+  newest.differences = combined(0.5, round.a, -0.5, round.b);
+  if (round.plain_a && round.plain_b) {
+    newest.plain = combined(0.5, *round.plain_a, 0.5, *round.plain_b);
+    newest.plain_differences = combined(0.5, *round.plain_a, -0.5, *round.plain_b);
   }
-  size_t at = 0;
-  const PixelRect& rect = image_.data_window;
-  for (int y = rect.y0; y < rect.y1; ++y)
-    for (int x = rect.x0; x < rect.x1; ++x)
-      samples_[at++] += 2 * uint64_t(allocation.samples(x, y));
+  newest.image = std::move(round.a);
+  take_closest(newest.image, round.b);
+  average(newest.image, round.b, 0.5);
+  count(allocation, newest.image.data_window);
   update_noise(newest, allocation);
-  error_squared_ = relative_error_squared(differences_, image_);
-  ++rounds_;
+  if (rounds_++ == 0)
+    best_ = std::move(newest);
+  else
+    add(std::move(newest), 2 * allocation.mean_samples());
+  variance_ = best_.variance(), error_squared_ = best_.error_squared();
+}
+
+/// Where there is bias, a round of more samples may be better alone than with those before it.
+void RoundMean::add(Estimate&& newest, double samples) {
+  take_closest(newest.image, best_.image);
+  take_closest(best_.image, newest.image);
+  const double old_variance = relative_mean(
+      newest.image, [&](size_t k, double) { return best_.differences[k] * best_.differences[k]; });
+  const double both = old_variance + newest.variance();
+  const double share = both > 0 ? old_variance / both : samples / mean_samples();
+  average(best_.image, newest.image, share);
+  mix(best_.differences, newest.differences, share);
+  mix(best_.plain, newest.plain, share);
+  mix(best_.plain_differences, newest.plain_differences, share);
+  if (!newest.plain.empty() && newest.error_squared() < best_.error_squared())
+    best_ = std::move(newest);
 }
 
 double RoundMean::mean_samples() const {
   double sum = 0;
   for (const uint64_t n : samples_) sum += double(n);
   return samples_.empty() ? 0.0 : sum / double(samples_.size());
+}
+
+PixelNoise RoundMean::noise() const {
+  PixelNoise scaled = noise_;
+  if (variance_ > 0)
+    for (double& variance : scaled.variance) variance *= error_squared_ / variance_;
+  return scaled;
 }
 
 /// Where `from` saw something nearer, its channels that must not be averaged.
@@ -96,30 +134,31 @@ void RoundMean::average(Image& to, const Image& from, double share) const {
     }
 }
 
-double RoundMean::relative_error_squared(const Differences& differences, const Image& image) const {
-  const auto values = colours(image);
-  const size_t pixels = values[0]->size();
-  double sum = 0;
-  for (size_t c = 0; c < 3; ++c)
-    for (size_t p = 0; p < pixels; ++p)
-      sum += relative(differences[c * pixels + p], double((*values[c])[p]));
-  return pixels > 0 ? sum / double(3 * pixels) : 0.0;
+void RoundMean::count(const SampleAllocation& allocation, const PixelRect& rect) {
+  samples_.resize(size_t(rect.pixel_count()));
+  size_t at = 0;
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1; ++x)
+      samples_[at++] += 2 * uint64_t(allocation.samples(x, y));
 }
 
-void RoundMean::update_noise(const Differences& differences, const SampleAllocation& allocation) {
-  const auto values = colours(image_);
-  const PixelRect& rect = image_.data_window;
+void RoundMean::update_noise(const Estimate& newest, const SampleAllocation& allocation) {
+  const auto values = colours(newest.image);
+  const PixelRect& rect = newest.image.data_window;
   const size_t pixels = values[0]->size();
   const double share = empty() ? 1.0 : newest_share;
-  if (empty()) noise_ = {rect, std::vector<double>(pixels, 0.0)};
+  noise_.rect = rect;
+  noise_.variance.resize(pixels);
   for (size_t p = 0; p < pixels; ++p) {
+    double sum = 0;
+    for (size_t c = 0; c < 3; ++c) {
+      const double value = double((*values[c])[p]), difference = newest.differences[c * pixels + p];
+      sum += difference * difference / (value * value + relative_floor);
+    }
     const int x = rect.x0 + int(p % size_t(rect.width()));
     const int y = rect.y0 + int(p / size_t(rect.width()));
-    double sum = 0;
-    for (size_t c = 0; c < 3; ++c)
-      sum += relative(differences[c * pixels + p], double((*values[c])[p]));
-    const double newest = sum / 3 * double(allocation.samples(x, y));
-    noise_.variance[p] += share * (newest - noise_.variance[p]);
+    const double with_one = sum / 3 * double(allocation.samples(x, y));
+    noise_.variance[p] += share * (with_one - noise_.variance[p]);
   }
 }
 

@@ -23,6 +23,9 @@ constexpr double most_growth = 8;
 /// stratified.
 constexpr double least_growth = 0.25;
 
+/// The same where there is bias: the next round has to do without those before.
+constexpr double least_biased_growth = 1;
+
 /// Rounds aim a little below the target, so that chance does not make them miss it every other
 /// time.
 constexpr double aim = 0.97;
@@ -60,8 +63,11 @@ AccuracyTarget accuracy_target(const Settings& settings) {
 }
 
 RoundPlanner::RoundPlanner(const AccuracyTarget& target, double least_pass_samples,
-                           double reserve_s)
-    : target_(target), least_pass_samples_(least_pass_samples), reserve_s_(reserve_s) {}
+                           double reserve_s, bool biased)
+    : target_(target),
+      least_pass_samples_(least_pass_samples),
+      reserve_s_(reserve_s),
+      biased_(biased) {}
 
 double RoundPlanner::first_pass_samples() const {
   double samples = first_samples;
@@ -76,9 +82,9 @@ std::optional<RoundRequest> RoundPlanner::next(const RoundsSoFar& so_far) {
       end_ = RoundsEnd::error_reached;
       return std::nullopt;
     }
-    // Inverses of squared errors add up.
     const double wanted = aim * *target_.error * aim * *target_.error;
-    request.error_squared = 1 / (1 / wanted - 1 / so_far.error_squared);
+    // Inverses of squared errors add up, unless there is bias.
+    request.error_squared = biased_ ? wanted : 1 / (1 / wanted - 1 / so_far.error_squared);
   }
   const double left = target_.max_samples - so_far.mean_samples;
   const double affordable = affordable_samples(so_far);
@@ -90,7 +96,8 @@ std::optional<RoundRequest> RoundPlanner::next(const RoundsSoFar& so_far) {
       0.5 * std::min({left, affordable,
                       std::max(most_growth * so_far.mean_samples, 2 * least_pass_samples_)});
   request.least_pass_samples =
-      std::min(request.most_pass_samples, 0.5 * least_growth * so_far.mean_samples);
+      std::min(request.most_pass_samples,
+               0.5 * (biased_ ? least_biased_growth : least_growth) * so_far.mean_samples);
   return request;
 }
 

@@ -40,8 +40,10 @@ enum class RoundsEnd { none, error_reached, samples_spent, time_spent };
 class RoundPlanner {
  public:
   /// `least_pass_samples`: what a pass costs at least, samples a pixel. `reserve_s`: what is left
-  /// to do after the last round.
-  RoundPlanner(const AccuracyTarget& target, double least_pass_samples, double reserve_s);
+  /// to do after the last round. `biased`: rounds have an error in common that the mean of them
+  /// does not lessen.
+  RoundPlanner(const AccuracyTarget& target, double least_pass_samples, double reserve_s,
+               bool biased = false);
 
   /// Samples a pixel of each pass of the first round: a power of two.
   double first_pass_samples() const;
@@ -54,6 +56,7 @@ class RoundPlanner {
 
   AccuracyTarget target_;
   double least_pass_samples_, reserve_s_;
+  bool biased_;
   RoundsEnd end_ = RoundsEnd::none;
 };
 
