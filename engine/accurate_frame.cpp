@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -59,6 +60,7 @@ class Rounds {
         allocation, hash_combine(hash_combine(settings_.seed, pass_seed), pass_count_++));
     last_pass_s_ = passes_.elapsed_s() - start_s;
     last_pass_samples_ = allocation.mean_samples();
+    last_pass_even_ = allocation.least_samples() == allocation.most_samples() && passes_.adaptive();
     return result;
   }
 
@@ -67,6 +69,7 @@ class Rounds {
     PassResult a = pass(allocation);
     PassResult b = a.complete ? pass(allocation) : PassResult{{}, {}, false};
     complete_ = a.complete && b.complete;
+    if (complete_) rounds_.push_back(allocation.mean_samples());
     if (complete_)
       mean_.add({std::move(a.image), std::move(b.image), std::move(a.plain), std::move(b.plain)},
                 allocation);
@@ -76,8 +79,8 @@ class Rounds {
   }
 
   RoundsSoFar so_far() const {
-    return {mean_.mean_samples(), mean_.error_squared(), passes_.elapsed_s(), last_pass_s_,
-            last_pass_samples_};
+    return {mean_.mean_samples(), mean_.error_squared(), passes_.elapsed_s(),
+            last_pass_s_,         last_pass_samples_,    last_pass_even_};
   }
 
   double error() const { return std::sqrt(mean_.error_squared()); }
@@ -110,6 +113,8 @@ class Rounds {
                                                  {"spp_max", double(most)},
                                                  {"spp_limit", target_.max_samples},
                                                  {"passes", double(2 * mean_.rounds())}});
+    result.words.emplace_back(
+        "repeat", fmt::format("--seed {} --rounds {}", settings_.seed, fmt::join(rounds_, ",")));
     if (target_.error)
       result.words.emplace_back("error_target_reached", error_reached() ? "yes" : "no");
     return result;
@@ -124,7 +129,9 @@ class Rounds {
   PassResult interrupted_;
   bool complete_ = true;
   uint32_t pass_count_ = 0;
+  std::vector<double> rounds_;  // mean samples of each of its passes
   double last_pass_s_ = 0, last_pass_samples_ = 0;
+  bool last_pass_even_ = true;
 };
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace tessera {
 FrameResult render_frame(const Scene& scene, const Settings& settings, Diagnostics& diagnostics,
                          const FrameControl& control) {
   const AccuracyTarget target = accuracy_target(settings);
-  const bool several = target.error || target.time_s;
+  const bool several = target.several_passes();
   FramePasses passes(scene, settings, diagnostics, control, several);
   if (several) return render_accurate(passes, settings, diagnostics);
   return passes.finish(passes.render());

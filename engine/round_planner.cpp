@@ -33,6 +33,9 @@ constexpr double aim = 0.97;
 /// Share of the remaining time that a round may take, as it is predicted: cores are shared.
 constexpr double time_share = 0.92;
 
+/// The same as long as nothing is known but what a pass with even samples takes.
+constexpr double time_share_at_first = 0.4;
+
 /// Share of the time asked for that is not worth another round.
 constexpr double time_left_over = 0.04;
 
@@ -46,7 +49,8 @@ void check_above_0(const char* what, double value, double high) {
 }  // namespace
 
 AccuracyTarget accuracy_target(const Settings& settings) {
-  AccuracyTarget target{settings.error, settings.time_s};
+  AccuracyTarget target;
+  target.error = settings.error, target.time_s = settings.time_s;
   if (settings.max_samples) target.max_samples = *settings.max_samples;
   if (!target.error && !target.time_s && settings.max_samples)
     throw Error("a limit of the samples needs an error or a time that they are limited for");
@@ -54,6 +58,10 @@ AccuracyTarget accuracy_target(const Settings& settings) {
     throw Error(
         "samples per pixel are found by the error or the time that is asked for; expected one of "
         "them, not both");
+  target.rounds = settings.rounds;
+  if (!target.rounds.empty() && (target.error || target.time_s || settings.samples_per_pixel))
+    throw Error("rounds repeat a frame; expected no error, time or samples per pixel besides");
+  for (const double samples : target.rounds) check_above_0("samples of a round", samples, 65536);
   if (target.error) check_above_0("error", *target.error, 1e6);
   if (target.time_s) check_above_0("time in seconds", *target.time_s, max_time_s);
   if (target.max_samples < 2 || target.max_samples > 65536)
@@ -70,6 +78,10 @@ RoundPlanner::RoundPlanner(const AccuracyTarget& target, double least_pass_sampl
       biased_(biased) {}
 
 double RoundPlanner::first_pass_samples() const {
+  if (!target_.rounds.empty())
+    return std::exp2(std::clamp(std::round(std::log2(target_.rounds.front())), 0.0, 14.0));
+  // What a sample costs is not known yet.
+  if (target_.time_s) return least_pass_samples_;
   double samples = first_samples;
   while (2 * samples > target_.max_samples && samples > least_pass_samples_) samples /= 2;
   return std::max(samples, least_pass_samples_);
@@ -77,6 +89,12 @@ double RoundPlanner::first_pass_samples() const {
 
 std::optional<RoundRequest> RoundPlanner::next(const RoundsSoFar& so_far) {
   RoundRequest request;
+  if (!target_.rounds.empty()) {
+    if (rounds_begun_ < target_.rounds.size())
+      return RoundRequest{0, 0, target_.rounds[rounds_begun_++]};
+    end_ = RoundsEnd::repeated;
+    return std::nullopt;
+  }
   if (target_.error) {
     if (so_far.error_squared <= *target_.error * *target_.error) {
       end_ = RoundsEnd::error_reached;
@@ -107,7 +125,9 @@ double RoundPlanner::affordable_samples(const RoundsSoFar& so_far) const {
   const double left_s = *target_.time_s - reserve_s_ - so_far.elapsed_s;
   if (left_s <= time_left_over * *target_.time_s) return 0;
   const double sample_s = so_far.last_pass_s / std::max(so_far.last_pass_samples, 1e-3);
-  return sample_s > 0 ? time_share * left_s / sample_s : std::numeric_limits<double>::infinity();
+  return sample_s > 0
+             ? (so_far.last_pass_even ? time_share_at_first : time_share) * left_s / sample_s
+             : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace tessera

@@ -3,16 +3,20 @@
 /// round may cost. Knows neither frames nor clocks: it is told what rounds took.
 
 #include <optional>
+#include <vector>
 
 namespace tessera {
 
 struct Settings;
 
-/// What is asked for. At least one of the first two.
+/// What is asked for. Nothing: a frame of one pass.
 struct AccuracyTarget {
   std::optional<double> error;   ///< root of the relative mean square error; above 0
   std::optional<double> time_s;  ///< for the whole frame
   double max_samples = 1024;     ///< mean samples a pixel
+  std::vector<double> rounds;    ///< as Settings::rounds; excludes the others
+
+  bool several_passes() const { return error || time_s || !rounds.empty(); }
 };
 
 /// What the settings ask for. Throws Error when it makes no sense.
@@ -25,6 +29,7 @@ struct RoundsSoFar {
   double elapsed_s = 0;          ///< since the frame began
   double last_pass_s = 0;        ///< what the last pass took
   double last_pass_samples = 0;  ///< its mean samples a pixel
+  bool last_pass_even = true;    ///< the same number in all of them, which is cheaper
 };
 
 /// What a round is for: no more samples than bring its own squared error down to `error_squared`,
@@ -35,7 +40,7 @@ struct RoundRequest {
   double least_pass_samples = 0, most_pass_samples = 0;
 };
 
-enum class RoundsEnd { none, error_reached, samples_spent, time_spent };
+enum class RoundsEnd { none, error_reached, samples_spent, time_spent, repeated };
 
 class RoundPlanner {
  public:
@@ -56,6 +61,7 @@ class RoundPlanner {
 
   AccuracyTarget target_;
   double least_pass_samples_, reserve_s_;
+  size_t rounds_begun_ = 1;  // the first asks for nothing
   bool biased_;
   RoundsEnd end_ = RoundsEnd::none;
 };

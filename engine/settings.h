@@ -16,8 +16,11 @@ struct Settings {
   /// Samples are taken until the frame's relative error is estimated to be below this
   /// (engine/accurate_frame.h), or until the mean of samples per pixel comes to max_samples.
   std::optional<double> error;
-  std::optional<int> max_samples;     ///< only with `error` or `time_s`; unset: 1024
-  std::optional<double> time_s;       ///< as many samples as fit into a frame of so many seconds
+  std::optional<int> max_samples;  ///< only with `error` or `time_s`; unset: 1024
+  std::optional<double> time_s;    ///< as many samples as fit into a frame of so many seconds
+  /// Samples a pixel of the passes of each round, the mean over pixels: repeats a frame that was
+  /// rendered to an error or within a time. Empty: they are found.
+  std::vector<double> rounds;
   std::optional<float> shading_rate;  ///< pixels^2; replaces every surface's own
   std::optional<float> dicing_rate;   ///< pixels^2; of micropolygons, whatever ShadingRate
   std::optional<float> motion_factor, focus_factor;  ///< replace GeometricApproximation's

@@ -98,6 +98,21 @@ CLI::Validator reconstruction() {
       "NAME");
 }
 
+std::vector<double> round_list(const std::string& list) {
+  std::vector<double> rounds;
+  for (const std::string& item : split_list(list)) {
+    double samples = 0;
+    if (!CLI::detail::lexical_cast(item, samples) || !(samples > 0) ||
+        samples > max_samples_per_pixel)
+      throw CLI::ValidationError(
+          "--rounds",
+          fmt::format("'{}': expected numbers above 0 and up to {}, separated by commas", list,
+                      max_samples_per_pixel));
+    rounds.push_back(samples);
+  }
+  return rounds;
+}
+
 /// How many samples: so many, or as many as something takes.
 void add_sample_options(CLI::App& app, Settings& settings) {
   CLI::Option* samples = app.add_option("--spp", settings.samples_per_pixel, "samples per pixel")
@@ -120,6 +135,14 @@ void add_sample_options(CLI::App& app, Settings& settings) {
           ->check(number_above_0(max_time_s))
           ->excludes(samples)
           ->type_name("SECONDS");
+  app.add_option_function<std::string>(
+         "--rounds", [&settings](const std::string& list) { settings.rounds = round_list(list); },
+         "repeat a frame of --error or --time: the statistics' \"repeat\", samples per pixel of "
+         "each of the passes of a round")
+      ->excludes(samples)
+      ->excludes(error)
+      ->excludes(time)
+      ->type_name("N,N,...");
   app.add_option_function<int>(
          "--max-spp",
          [&settings, error, time](const int& samples_at_most) {
