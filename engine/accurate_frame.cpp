@@ -47,7 +47,9 @@ class Rounds {
 
  private:
   /// A filter that tells noise from two halves of a pixel's samples needs two of them.
-  int lowest_level() const { return passes_.plan().filters_distribution() ? 1 : 0; }
+  int lowest_level() const {
+    return std::max(passes_.plan().filters_distribution() ? 1 : 0, passes_.lowest_level());
+  }
 
   double write_s() const {
     const double pixels = double(passes_.crop().pixel_count());

@@ -130,6 +130,17 @@ const LensProfile* FramePasses::lens() const {
 
 bool FramePasses::adaptive() const { return plan_.sample_tuples.kind == SampleTuples::Kind::free; }
 
+int FramePasses::lowest_level() const {
+  if (adaptive()) return 0;
+  // Those of the plan can be had as they divide evenly, and so can every multiple.
+  for (int level = 0; level < SampleAllocation::highest_level; ++level)
+    if ((1 << level) % plan_.samples_per_pixel == 0) return level;
+  throw Error(fmt::format(
+      "hider {}: an error or a time takes powers of two of samples per pixel, and {} are none; "
+      "expected another hider",
+      plan_.hider, plan_.samples_per_pixel));
+}
+
 PassResult FramePasses::render() {
   const SamplePattern pattern(plan_.samples_per_pixel, settings_.seed, lens(), shutter(),
                               plan_.sample_tuples, extras());

@@ -39,6 +39,8 @@ class FramePasses {
   const std::vector<const AovDefinition*>& groups() const { return groups_; }
   /// Whether pixels may have different numbers of samples: not where the hider prescribes them.
   bool adaptive() const;
+  /// The fewest samples of a pixel, as a power of two: hiders that prescribe them want some.
+  int lowest_level() const;
   double elapsed_s() const { return statistics_.elapsed_s(); }
 
   /// One pass with the plan's own number of samples.

@@ -9,9 +9,10 @@ namespace {
 /// Share of the mean root of the variance that no pixel falls below.
 constexpr double least_share = 0.125;
 
-/// Bisection steps over the logarithm of samples per root of variance: to 1e-8 and better.
+/// Bisection steps over the logarithm of samples: to 1e-8 and better.
 constexpr int bisections = 40;
-constexpr double least_log2 = -60, most_log2 = 60;
+/// From less than one sample in any pixel of a frame to more than the most in all.
+constexpr double least_log2 = -40, most_log2 = 40;
 
 /// Averages lines of `count` values that lie `step` apart, with weights 1 4 6 4 1; ends repeat.
 void smooth_line(const double* from, double* to, int count, size_t step) {
@@ -24,7 +25,8 @@ void smooth_line(const double* from, double* to, int count, size_t step) {
   }
 }
 
-/// Roots of the variance over a rectangle, and the levels that go with them.
+/// Roots of the variance over a rectangle, as multiples of their mean, and the levels that go with
+/// them.
 class Roots {
  public:
   Roots(const PixelNoise& noise, const PixelRect& rect) : rect_(rect) {
@@ -40,10 +42,11 @@ class Roots {
     }
     double mean = 0;
     for (const double root : roots_) mean += root / double(roots_.size());
-    for (double& root : roots_) root = std::max(root, least_share * mean);
+    if (mean > 0)
+      for (double& root : roots_) root = std::max(root / mean, least_share);
   }
 
-  /// 2^log2_scale samples for a root of 1.
+  /// 2^log2_scale samples for the mean root.
   SampleAllocation at(double log2_scale, const AllocationLimits& limits) const {
     SampleAllocation result{rect_, {}};
     result.level.reserve(roots_.size());
