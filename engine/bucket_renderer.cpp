@@ -40,7 +40,7 @@ SampleValues BucketRenderer::allocated(const PixelRect& rect, const Grids& grids
       values = counted_by_pixel(shade(grids));
     else
       replace_chosen(chosen, uint8_t(choice), shade(grids), values);
-    count_extra(chosen, uint8_t(choice), rect, uint32_t(pattern.samples_per_pixel()));
+    map_samples(chosen, uint8_t(choice), rect, uint32_t(pattern.samples_per_pixel()));
   }
   return values;
 }
@@ -77,13 +77,14 @@ void BucketRenderer::add_extra(const std::vector<uint8_t>& chosen, const Grids& 
     visit(pattern, bounds, grids);
     keep_chosen(chosen, rect, choice, samples_, fragments_);
     append_extra(chosen, choice, shade(grids), values);
-    count_extra(chosen, choice, rect, uint32_t(pattern.samples_per_pixel()));
+    const auto samples = uint32_t(pattern.samples_per_pixel());
+    extra_samples_ += uint64_t(std::ranges::count(chosen, choice)) * samples;
+    map_samples(chosen, choice, rect, samples);
   }
 }
 
-void BucketRenderer::count_extra(const std::vector<uint8_t>& chosen, uint8_t choice,
+void BucketRenderer::map_samples(const std::vector<uint8_t>& chosen, uint8_t choice,
                                  const PixelRect& rect, uint32_t samples) {
-  extra_samples_ += uint64_t(std::ranges::count(chosen, choice)) * samples;
   if (!parts_.heatmap || !parts_.heatmap->definition().extra()) return;
   pixel_counts_.assign(chosen.size(), 0);
   for (size_t pixel = 0; pixel < chosen.size(); ++pixel)

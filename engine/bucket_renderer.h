@@ -87,7 +87,7 @@ class BucketRenderer {
   void visit(const SamplePattern& pattern, const PixelRect& rect, const Grids& grids);
   SampleValues shade(const Grids& grids);
   void add_extra(const std::vector<uint8_t>& chosen, const Grids& grids, SampleValues& values);
-  void count_extra(const std::vector<uint8_t>& chosen, uint8_t choice, const PixelRect& rect,
+  void map_samples(const std::vector<uint8_t>& chosen, uint8_t choice, const PixelRect& rect,
                    uint32_t samples);
   void hide(const std::vector<std::shared_ptr<const Grid>>& grids);
   ShadeInput shade_input(std::span<const std::shared_ptr<const Grid>> grids);

@@ -3,12 +3,14 @@
 #include "engine/accurate_frame.h"
 #include "engine/frame_passes.h"
 #include "engine/overrides.h"
+#include "engine/qualities.h"
 #include "engine/round_planner.h"
 
 namespace tessera {
 
-FrameResult render_frame(const Scene& scene, const Settings& settings, Diagnostics& diagnostics,
+FrameResult render_frame(const Scene& scene, const Settings& asked, Diagnostics& diagnostics,
                          const FrameControl& control) {
+  const Settings settings = with_quality(asked);
   const AccuracyTarget target = accuracy_target(settings);
   const bool several = target.several_passes();
   FramePasses passes(scene, settings, diagnostics, control, several);
@@ -16,7 +18,8 @@ FrameResult render_frame(const Scene& scene, const Settings& settings, Diagnosti
   return passes.finish(passes.render());
 }
 
-FramePlan plan_frame(const Scene& original, const Settings& settings, Diagnostics& diagnostics) {
+FramePlan plan_frame(const Scene& original, const Settings& asked, Diagnostics& diagnostics) {
+  const Settings settings = with_quality(asked);
   const Scene scene = apply_overrides(original, settings);
   const Camera camera(scene.camera);
   return make_plan(scene, scene.camera, settings,

@@ -49,8 +49,11 @@ ShadeSetup shade_setup(const Scene& scene, const Camera& camera, const Settings&
   setup.scene = &scene;
   setup.camera = &camera;
   setup.diagnostics = &diagnostics;
-  setup.texture_sampler = [&scene, &settings] {
+  const TextureFilter filter =
+      find_texture_filter(settings.texture_filter.value_or("anisotropic")).filter;
+  setup.texture_sampler = [&scene, filter] {
     TextureSettings textures;
+    textures.filter = filter;
     textures.search_path = scene.options.texture_path;
     // Textures mostly lie near the scene file, from wherever it is rendered.
     textures.search_path.push_back(std::filesystem::path(scene.file).parent_path().string());

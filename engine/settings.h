@@ -12,6 +12,7 @@
 namespace tessera {
 
 struct Settings {
+  std::optional<std::string> quality;  ///< one of engine/qualities.h, for what is left unset
   std::optional<int> samples_per_pixel;
   /// Samples are taken until the frame's relative error is estimated to be below this
   /// (engine/accurate_frame.h), or until the mean of samples per pixel comes to max_samples.
@@ -26,9 +27,10 @@ struct Settings {
   std::optional<float> motion_factor, focus_factor;  ///< replace GeometricApproximation's
   std::optional<CameraSettings::CropWindow> crop;
   std::optional<int> x_resolution, y_resolution;
-  std::optional<std::string> hider;    ///< "name" or "name:arguments"
-  std::optional<std::string> shading;  ///< "name" or "name:arguments"
-  std::optional<std::string> filter;   ///< "name" or "name:XxY", full widths in pixels
+  std::optional<std::string> hider;           ///< "name" or "name:arguments"
+  std::optional<std::string> shading;         ///< "name" or "name:arguments"
+  std::optional<std::string> texture_filter;  ///< one of images/texture_filters.h
+  std::optional<std::string> filter;          ///< "name" or "name:XxY", full widths in pixels
   /// "filter" (the pixel filter alone) or "name" or "name:arguments" of a method for distribution
   /// effects.
   std::optional<std::string> reconstruct;

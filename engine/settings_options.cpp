@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "engine/heatmap.h"
+#include "engine/qualities.h"
 #include "hide/hide.h"
+#include "images/texture_filters.h"
 #include "reconstruct/method.h"
 #include "reconstruct/pixel_filter.h"
 #include "shade/shade.h"
@@ -115,6 +117,9 @@ std::vector<double> round_list(const std::string& list) {
 
 /// How many samples: so many, or as many as something takes.
 void add_sample_options(CLI::App& app, Settings& settings) {
+  CLI::Option* quality = app.add_option("--quality", settings.quality,
+                                        "settings with a name, for all that no other option says")
+                             ->check(one_of(quality_registry(), "quality"));
   CLI::Option* samples = app.add_option("--spp", settings.samples_per_pixel, "samples per pixel")
                              ->check(CLI::Range(1, max_samples_per_pixel))
                              ->type_name("N");
@@ -145,8 +150,8 @@ void add_sample_options(CLI::App& app, Settings& settings) {
       ->type_name("N,N,...");
   app.add_option_function<int>(
          "--max-spp",
-         [&settings, error, time](const int& samples_at_most) {
-           if (error->count() + time->count() == 0)
+         [&settings, quality, error, time](const int& samples_at_most) {
+           if (quality->count() + error->count() + time->count() == 0)
              throw CLI::RequiresError("--max-spp", "--error or --time");
            settings.max_samples = samples_at_most;
          },
@@ -217,6 +222,9 @@ void add_choice_options(CLI::App& app, Settings& settings) {
   app.add_option("--filter", settings.filter, "pixel filter, with its full widths in pixels")
       ->check(one_of(pixel_filter_registry(), "filter"))
       ->type_name("NAME[:XxY]");
+  app.add_option("--texture-filter", settings.texture_filter,
+                 "how textures are filtered (anisotropic)")
+      ->check(one_of(texture_filter_registry(), "texture filter"));
   app.add_option("--reconstruct", settings.reconstruct,
                  "how samples become pixels where lens, motion, lights with extent or bounces "
                  "spread them (wiener where lights or bounces do, otherwise filter)")
@@ -275,11 +283,13 @@ void add_settings_options(CLI::App& app, Settings& settings) {
 }
 
 std::string list_choices() {
-  return "\n" + list_registry("Hiders", hider_registry()) +
+  return "\n" + list_registry("Qualities (--quality)", quality_registry()) +
+         list_registry("Hiders", hider_registry()) +
          list_registry("Shading modes", shading_mode_registry()) +
          list_registry("Filters", pixel_filter_registry()) +
          list_registry("Reconstruction", reconstruction_method_registry()) +
          fmt::format("  {:<14} {}\n", "filter", "the pixel filter alone") +
+         list_registry("Texture filters", texture_filter_registry()) +
          list_registry("Channels (--aov)", aov_registry()) +
          list_registry("Heat maps (--heatmap)", heatmap_registry());
 }
