@@ -12,8 +12,10 @@
 namespace tessera {
 namespace {
 
-/// Samples a pixel of each of the first two passes.
-constexpr double first_samples = 4;
+/// Samples a pixel of each of the first two passes, and as many as may well do where an error of
+/// loose_error or more is asked for.
+constexpr double first_samples = 4, first_loose_samples = 1;
+constexpr double loose_error = 0.1;
 
 /// A round has at most this many times the samples of all before: what they tell of the noise is
 /// noise itself, and how it falls with samples is not known before it has been tried.
@@ -21,7 +23,7 @@ constexpr double most_growth = 8;
 
 /// And at least this many times, however little is missing: few samples at a time are badly
 /// stratified.
-constexpr double least_growth = 0.25;
+constexpr double least_growth = 0.5;
 
 /// The same where there is bias: the next round has to do without those before.
 constexpr double least_biased_growth = 1;
@@ -82,7 +84,7 @@ double RoundPlanner::first_pass_samples() const {
     return std::exp2(std::clamp(std::round(std::log2(target_.rounds.front())), 0.0, 14.0));
   // What a sample costs is not known yet.
   if (target_.time_s) return least_pass_samples_;
-  double samples = first_samples;
+  double samples = target_.error >= loose_error ? first_loose_samples : first_samples;
   while (2 * samples > target_.max_samples && samples > least_pass_samples_) samples /= 2;
   return std::max(samples, least_pass_samples_);
 }
