@@ -127,9 +127,11 @@ double RoundPlanner::affordable_samples(const RoundsSoFar& so_far) const {
   const double left_s = *target_.time_s - reserve_s_ - so_far.elapsed_s;
   if (left_s <= time_left_over * *target_.time_s) return 0;
   const double sample_s = so_far.last_pass_s / std::max(so_far.last_pass_samples, 1e-3);
-  return sample_s > 0
-             ? (so_far.last_pass_even ? time_share_at_first : time_share) * left_s / sample_s
-             : std::numeric_limits<double>::infinity();
+  if (!(sample_s > 0)) return std::numeric_limits<double>::infinity();
+  const double samples = left_s / sample_s;
+  if (!so_far.last_pass_even) return time_share * samples;
+  // The least of rounds has even samples again, and costs what it did.
+  return std::max(time_share_at_first * samples, std::min(samples, 2 * least_pass_samples_));
 }
 
 }  // namespace tessera

@@ -110,6 +110,15 @@ TEST_CASE("a frame ends near the time given, whatever its passes cost") {
           }
 }
 
+TEST_CASE("a frame with room for few samples uses it") {
+  // The first two passes take 1.1 s, and two more of the least samples as much again.
+  MadeUpFrame frame{0.1, 0.01, 0.49, 2.0};
+  RoundPlanner planner(target_of({}, 2.4), 1, 0);
+  frame.run(planner);
+  CHECK(planner.end() == RoundsEnd::time_spent);
+  CHECK(frame.state.mean_samples == 4);
+}
+
 TEST_CASE("a frame that takes too long whatever is done has the least there is") {
   MadeUpFrame frame{5, 1, 1};
   RoundPlanner planner(target_of({}, 3.0), 1, 0);
