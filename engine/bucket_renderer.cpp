@@ -8,15 +8,41 @@ void BucketRenderer::render(int i, int j) {
   timer_.start();
   const Grids grids = parts_.grids.grids_of_bucket(i, j);
   timer_.lap(times_.dice_s);
-  visit(parts_.pattern, parts_.buckets.rect(i, j), grids);
+  const PixelRect rect = parts_.buckets.rect(i, j);
+  parts_.film.add_bucket(i, j, parts_.allocation ? allocated(rect, grids) : even(rect, grids));
+  timer_.lap(times_.reconstruct_s);
+  if (!parts_.keep_grids) parts_.grids.finish_bucket(i, j);
+  timer_.lap(times_.dice_s);
+}
+
+/// The samples of the frame's pattern, and more of them where the lens asks for it.
+SampleValues BucketRenderer::even(const PixelRect& rect, const Grids& grids) {
+  visit(*parts_.pattern, rect, grids);
   std::vector<uint8_t> chosen;
   if (parts_.extra) chosen = choose_extra(samples_, fragments_, parts_.camera, *parts_.extra);
   SampleValues values = shade(grids);
   if (parts_.extra) add_extra(chosen, grids, values);
-  parts_.film.add_bucket(i, j, std::move(values));
-  timer_.lap(times_.reconstruct_s);
-  parts_.grids.finish_bucket(i, j);
-  timer_.lap(times_.dice_s);
+  return values;
+}
+
+/// The samples of each pixel's level. The lowest is visited everywhere, for a start.
+SampleValues BucketRenderer::allocated(const PixelRect& rect, const Grids& grids) {
+  const std::vector<uint8_t> chosen = parts_.allocation->choices(rect);
+  const auto [lowest, highest] = std::ranges::minmax(chosen);
+  SampleValues values;
+  for (int choice = lowest; choice <= highest; ++choice) {
+    const PixelRect bounds = choice == lowest ? rect : bounds_of(chosen, rect, uint8_t(choice));
+    if (bounds.empty()) continue;
+    const SamplePattern& pattern = parts_.levels->pattern(choice - 1);
+    visit(pattern, bounds, grids);
+    if (lowest != highest) keep_chosen(chosen, rect, uint8_t(choice), samples_, fragments_);
+    if (choice == lowest)
+      values = counted_by_pixel(shade(grids));
+    else
+      replace_chosen(chosen, uint8_t(choice), shade(grids), values);
+    map_samples(chosen, uint8_t(choice), rect, uint32_t(pattern.samples_per_pixel()));
+  }
+  return values;
 }
 
 /// Finds what the pattern's samples in `rect` see.
@@ -51,13 +77,14 @@ void BucketRenderer::add_extra(const std::vector<uint8_t>& chosen, const Grids& 
     visit(pattern, bounds, grids);
     keep_chosen(chosen, rect, choice, samples_, fragments_);
     append_extra(chosen, choice, shade(grids), values);
-    count_extra(chosen, choice, rect, uint32_t(pattern.samples_per_pixel()));
+    const auto samples = uint32_t(pattern.samples_per_pixel());
+    extra_samples_ += uint64_t(std::ranges::count(chosen, choice)) * samples;
+    map_samples(chosen, choice, rect, samples);
   }
 }
 
-void BucketRenderer::count_extra(const std::vector<uint8_t>& chosen, uint8_t choice,
+void BucketRenderer::map_samples(const std::vector<uint8_t>& chosen, uint8_t choice,
                                  const PixelRect& rect, uint32_t samples) {
-  extra_samples_ += uint64_t(std::ranges::count(chosen, choice)) * samples;
   if (!parts_.heatmap || !parts_.heatmap->definition().extra()) return;
   pixel_counts_.assign(chosen.size(), 0);
   for (size_t pixel = 0; pixel < chosen.size(); ++pixel)

@@ -11,6 +11,7 @@
 #include "engine/buckets.h"
 #include "engine/extra_samples.h"
 #include "engine/heatmap.h"
+#include "engine/sample_allocation.h"
 #include "hide/hide.h"
 #include "reconstruct/reconstruct.h"
 #include "shade/shade.h"
@@ -21,7 +22,7 @@ namespace tessera {
 struct FrameParts {
   const Camera& camera;
   const BucketLayout& buckets;
-  const SamplePattern& pattern;
+  const SamplePattern* pattern;  ///< null where there is an allocation
   const Hider& hider;
   HideFeatures features;
   const ShaderBindings& bindings;
@@ -29,9 +30,12 @@ struct FrameParts {
   GridSource& grids;
   Shading& shading;
   Reconstruction& film;
-  bool describe_samples;       ///< the film wants SampleValues::distribution
-  const ExtraPatterns* extra;  ///< null: every pixel has as many samples
-  Heatmap* heatmap;            ///< null: nobody asks what pixels cost
+  bool describe_samples;               ///< the film wants SampleValues::distribution
+  const ExtraPatterns* extra;          ///< null: nobody gets more than `pattern` has
+  const SampleAllocation* allocation;  ///< null: the samples of `pattern`, and extra ones
+  const LevelPatterns* levels;         ///< of `allocation`
+  bool keep_grids;                     ///< a further pass may want them
+  Heatmap* heatmap;                    ///< null: nobody asks what pixels cost
 };
 
 /// Seconds a worker spent in each stage.
@@ -78,10 +82,12 @@ class BucketRenderer {
  private:
   using Grids = std::vector<std::shared_ptr<const Grid>>;
 
+  SampleValues even(const PixelRect& rect, const Grids& grids);
+  SampleValues allocated(const PixelRect& rect, const Grids& grids);
   void visit(const SamplePattern& pattern, const PixelRect& rect, const Grids& grids);
   SampleValues shade(const Grids& grids);
   void add_extra(const std::vector<uint8_t>& chosen, const Grids& grids, SampleValues& values);
-  void count_extra(const std::vector<uint8_t>& chosen, uint8_t choice, const PixelRect& rect,
+  void map_samples(const std::vector<uint8_t>& chosen, uint8_t choice, const PixelRect& rect,
                    uint32_t samples);
   void hide(const std::vector<std::shared_ptr<const Grid>>& grids);
   ShadeInput shade_input(std::span<const std::shared_ptr<const Grid>> grids);

@@ -150,8 +150,10 @@ void keep_chosen(const std::vector<uint8_t>& chosen, const PixelRect& rect, uint
   fragments = std::move(kept);
 }
 
-void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValues&& extra,
-                  SampleValues& values) {
+namespace {
+
+void merge_chosen(const std::vector<uint8_t>& chosen, uint8_t choice, bool keeps_own,
+                  SampleValues& extra, SampleValues& values) {
   const size_t pixels = size_t(values.rect.pixel_count());
   const auto spp = uint32_t(values.samples_per_pixel), more = uint32_t(extra.samples_per_pixel);
   std::vector<uint32_t> first_of_pixel{0};
@@ -160,8 +162,9 @@ void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValu
     const bool uniform = values.first_of_pixel.empty();
     const uint32_t first = uniform ? uint32_t(pixel) * spp : values.first_of_pixel[pixel];
     const uint32_t last = uniform ? first + spp : values.first_of_pixel[pixel + 1];
-    for (uint32_t s = first; s < last; ++s) origins.push_back({false, s});
-    if (chosen[pixel] == choice) {
+    const bool chose = chosen[pixel] == choice;
+    for (uint32_t s = first; s < last && (keeps_own || !chose); ++s) origins.push_back({false, s});
+    if (chose) {
       const int x = values.rect.x0 + int(pixel) % values.rect.width() - extra.rect.x0;
       const int y = values.rect.y0 + int(pixel) / values.rect.width() - extra.rect.y0;
       const uint32_t from = uint32_t(y * extra.rect.width() + x) * more;
@@ -171,8 +174,7 @@ void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValu
   }
   const size_t before = values.x.size();
   for (size_t e = 0; e < ray_effect_count; ++e)
-    even_out(values.distribution.effects[e], before, extra.distribution.effects[e],
-             extra.x.size());
+    even_out(values.distribution.effects[e], before, extra.distribution.effects[e], extra.x.size());
   const auto merge = [&](std::vector<float>& own, const std::vector<float>& other) {
     regroup(origins, 1, other, own);
   };
@@ -188,6 +190,26 @@ void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValu
   }
   values.distribution.surfaces.surface = std::move(surface);
   values.first_of_pixel = std::move(first_of_pixel);
+}
+
+}  // namespace
+
+void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValues&& extra,
+                  SampleValues& values) {
+  merge_chosen(chosen, choice, true, extra, values);
+}
+
+void replace_chosen(const std::vector<uint8_t>& chosen, uint8_t choice,
+                    SampleValues&& chosen_values, SampleValues& values) {
+  merge_chosen(chosen, choice, false, chosen_values, values);
+}
+
+SampleValues counted_by_pixel(SampleValues&& values) {
+  const auto samples = uint32_t(values.samples_per_pixel);
+  for (size_t pixel = 0; pixel <= size_t(values.rect.pixel_count()); ++pixel)
+    values.first_of_pixel.push_back(uint32_t(pixel) * samples);
+  values.samples_per_pixel = 1;
+  return std::move(values);
 }
 
 }  // namespace tessera

@@ -49,4 +49,12 @@ void keep_chosen(const std::vector<uint8_t>& chosen, const PixelRect& rect, uint
 void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValues&& extra,
                   SampleValues& values);
 
+/// As append_extra(), but what the pixels had before is dropped.
+void replace_chosen(const std::vector<uint8_t>& chosen, uint8_t choice,
+                    SampleValues&& chosen_values, SampleValues& values);
+
+/// Says for each pixel how many samples it has, so that others may have more: a sample counts for
+/// as much in all buckets whatever their least number of samples.
+SampleValues counted_by_pixel(SampleValues&& values);
+
 }  // namespace tessera

@@ -53,6 +53,8 @@ std::vector<std::pair<std::string, std::string>> options_in_force(const Scene& s
   add("ray_dicing_rate", settings.ray_dicing_rate);
   add("motion_factor", settings.motion_factor);
   add("focus_factor", settings.focus_factor);
+  if (settings.quality) options.emplace_back("quality", *settings.quality);
+  if (settings.texture_filter) options.emplace_back("texture_filter", *settings.texture_filter);
   if (settings.heatmap) options.emplace_back("heatmap", *settings.heatmap);
   return options;
 }
@@ -69,7 +71,7 @@ void FrameStatistics::add(const BucketRenderer& worker) {
 
 void FrameStatistics::add(const Reconstruction& reconstruction) {
   merge_counters(film_, reconstruction.counters());
-  filter_s_ = reconstruction.filter_s();
+  filter_s_ += reconstruction.filter_s();
   bound_samples_ = reconstruction.bound_samples();
 }
 

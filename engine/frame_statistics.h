@@ -25,11 +25,11 @@ class FrameStatistics {
   Statistics finish(const FramePlan& plan, const Scene& scene, const Settings& settings,
                     int threads, const Diagnostics& diagnostics) const;
 
- private:
   double elapsed_s() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
+ private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double setup_s_ = 0, filter_s_ = 0, bound_samples_ = 0;
   std::mutex mutex_;

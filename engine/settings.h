@@ -12,15 +12,25 @@
 namespace tessera {
 
 struct Settings {
+  std::optional<std::string> quality;  ///< one of engine/qualities.h, for what is left unset
   std::optional<int> samples_per_pixel;
+  /// Samples are taken until the frame's relative error is estimated to be below this
+  /// (engine/accurate_frame.h), or until the mean of samples per pixel comes to max_samples.
+  std::optional<double> error;
+  std::optional<int> max_samples;  ///< only with `error` or `time_s`; unset: 1024
+  std::optional<double> time_s;    ///< as many samples as fit into a frame of so many seconds
+  /// Samples a pixel of the passes of each round, the mean over pixels: repeats a frame that was
+  /// rendered to an error or within a time. Empty: they are found.
+  std::vector<double> rounds;
   std::optional<float> shading_rate;  ///< pixels^2; replaces every surface's own
   std::optional<float> dicing_rate;   ///< pixels^2; of micropolygons, whatever ShadingRate
   std::optional<float> motion_factor, focus_factor;  ///< replace GeometricApproximation's
   std::optional<CameraSettings::CropWindow> crop;
   std::optional<int> x_resolution, y_resolution;
-  std::optional<std::string> hider;    ///< "name" or "name:arguments"
-  std::optional<std::string> shading;  ///< "name" or "name:arguments"
-  std::optional<std::string> filter;   ///< "name" or "name:XxY", full widths in pixels
+  std::optional<std::string> hider;           ///< "name" or "name:arguments"
+  std::optional<std::string> shading;         ///< "name" or "name:arguments"
+  std::optional<std::string> texture_filter;  ///< one of images/texture_filters.h
+  std::optional<std::string> filter;          ///< "name" or "name:XxY", full widths in pixels
   /// "filter" (the pixel filter alone) or "name" or "name:arguments" of a method for distribution
   /// effects.
   std::optional<std::string> reconstruct;

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include "engine/heatmap.h"
+#include "engine/qualities.h"
 #include "hide/hide.h"
+#include "images/texture_filters.h"
 #include "reconstruct/method.h"
 #include "reconstruct/pixel_filter.h"
 #include "shade/shade.h"
@@ -16,6 +18,8 @@ namespace tessera {
 namespace {
 
 constexpr int max_samples_per_pixel = 1 << 16;
+constexpr double max_error = 1e6;
+constexpr double max_time_s = 1e7;
 constexpr int max_extra_samples = 4096;
 constexpr int max_resolution = 1 << 15;
 constexpr int max_bucket_size = 4096;
@@ -73,6 +77,17 @@ CLI::Validator number_between(float low, float high) {
       fmt::format("[{} - {}]", low, high));
 }
 
+/// A number above 0 and up to `high`.
+CLI::Validator number_above_0(double high) {
+  return CLI::Validator(
+      [high](std::string& text) -> std::string {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value > 0 && value <= high) return "";
+        return fmt::format("'{}': expected a number above 0 and up to {}", text, high);
+      },
+      fmt::format("(0 - {}]", high));
+}
+
 /// As one_of() the methods for distribution effects, and "filter" for none of them.
 CLI::Validator reconstruction() {
   return CLI::Validator(
@@ -83,6 +98,66 @@ CLI::Validator reconstruction() {
         return problem.empty() ? problem : problem + " filter";
       },
       "NAME");
+}
+
+std::vector<double> round_list(const std::string& list) {
+  std::vector<double> rounds;
+  for (const std::string& item : split_list(list)) {
+    double samples = 0;
+    if (!CLI::detail::lexical_cast(item, samples) || !(samples > 0) ||
+        samples > max_samples_per_pixel)
+      throw CLI::ValidationError(
+          "--rounds",
+          fmt::format("'{}': expected numbers above 0 and up to {}, separated by commas", list,
+                      max_samples_per_pixel));
+    rounds.push_back(samples);
+  }
+  return rounds;
+}
+
+/// How many samples: so many, or as many as something takes.
+void add_sample_options(CLI::App& app, Settings& settings) {
+  CLI::Option* quality = app.add_option("--quality", settings.quality,
+                                        "settings with a name, for all that no other option says")
+                             ->check(one_of(quality_registry(), "quality"));
+  CLI::Option* samples = app.add_option("--spp", settings.samples_per_pixel, "samples per pixel")
+                             ->check(CLI::Range(1, max_samples_per_pixel))
+                             ->type_name("N");
+  CLI::Option* error =
+      app.add_option(
+             "--error", settings.error,
+             "as many samples as it takes, more of them where there is more noise: until "
+             "the root of the mean of variance / (value^2 + 0.01), over pixels and R, G, B, "
+             "is estimated to be E or less")
+          ->check(number_above_0(max_error))
+          ->excludes(samples)
+          ->type_name("E");
+  CLI::Option* time =
+      app.add_option("--time", settings.time_s,
+                     "as many samples as fit into a frame of so many seconds, placed as with "
+                     "--error; the image depends on how fast the machine was. With both, the first "
+                     "to be reached counts")
+          ->check(number_above_0(max_time_s))
+          ->excludes(samples)
+          ->type_name("SECONDS");
+  app.add_option_function<std::string>(
+         "--rounds", [&settings](const std::string& list) { settings.rounds = round_list(list); },
+         "repeat a frame of --error or --time: the statistics' \"repeat\", samples per pixel of "
+         "each of the passes of a round")
+      ->excludes(samples)
+      ->excludes(error)
+      ->excludes(time)
+      ->type_name("N,N,...");
+  app.add_option_function<int>(
+         "--max-spp",
+         [&settings, quality, error, time](const int& samples_at_most) {
+           if (quality->count() + error->count() + time->count() == 0)
+             throw CLI::RequiresError("--max-spp", "--error or --time");
+           settings.max_samples = samples_at_most;
+         },
+         "most samples per pixel with --error and --time, the mean over pixels (1024)")
+      ->check(CLI::Range(2, max_samples_per_pixel))
+      ->type_name("N");
 }
 
 void add_rate_options(CLI::App& app, Settings& settings) {
@@ -147,6 +222,9 @@ void add_choice_options(CLI::App& app, Settings& settings) {
   app.add_option("--filter", settings.filter, "pixel filter, with its full widths in pixels")
       ->check(one_of(pixel_filter_registry(), "filter"))
       ->type_name("NAME[:XxY]");
+  app.add_option("--texture-filter", settings.texture_filter,
+                 "how textures are filtered (anisotropic)")
+      ->check(one_of(texture_filter_registry(), "texture filter"));
   app.add_option("--reconstruct", settings.reconstruct,
                  "how samples become pixels where lens, motion, lights with extent or bounces "
                  "spread them (wiener where lights or bounces do, otherwise filter)")
@@ -175,9 +253,7 @@ std::string list_registry(const char* title, const Registry& registry) {
 }  // namespace
 
 void add_settings_options(CLI::App& app, Settings& settings) {
-  app.add_option("--spp", settings.samples_per_pixel, "samples per pixel")
-      ->check(CLI::Range(1, max_samples_per_pixel))
-      ->type_name("N");
+  add_sample_options(app, settings);
   app.add_option("--extra-samples", settings.extra_samples,
                  "most samples a pixel may have besides, where a filter for distribution effects "
                  "runs and the focal plane is in it (100)")
@@ -207,11 +283,13 @@ void add_settings_options(CLI::App& app, Settings& settings) {
 }
 
 std::string list_choices() {
-  return "\n" + list_registry("Hiders", hider_registry()) +
+  return "\n" + list_registry("Qualities (--quality)", quality_registry()) +
+         list_registry("Hiders", hider_registry()) +
          list_registry("Shading modes", shading_mode_registry()) +
          list_registry("Filters", pixel_filter_registry()) +
          list_registry("Reconstruction", reconstruction_method_registry()) +
          fmt::format("  {:<14} {}\n", "filter", "the pixel filter alone") +
+         list_registry("Texture filters", texture_filter_registry()) +
          list_registry("Channels (--aov)", aov_registry()) +
          list_registry("Heat maps (--heatmap)", heatmap_registry());
 }

@@ -24,7 +24,7 @@ auto value_of(const Section& section, std::string_view name) {
 
 template <class Section>
 void append_section(std::string& text, std::string_view title, const Section& section) {
-  text += fmt::format("{}\n", title);
+  if (!title.empty()) text += fmt::format("{}\n", title);
   for (const auto& [name, value] : section) text += fmt::format("  {:<28} {}\n", name, value);
 }
 
@@ -38,6 +38,10 @@ nlohmann::ordered_json Statistics::json() const {
       {"ratios", object_of(ratios)},   {"memory_bytes", object_of(memory_bytes)},
       {"plan", object_of(plan)},       {"options", object_of(options)},
       {"warnings", warnings}};
+  if (!accuracy.numbers.empty()) {
+    json["accuracy"] = object_of(accuracy.numbers);
+    json["accuracy"].update(object_of(accuracy.words));
+  }
   if (!heatmap.empty()) json["heatmap"] = object_of(heatmap);
   return json;
 }
@@ -58,6 +62,10 @@ std::string Statistics::report() const {
   append_section(text, "counts", counts);
   append_section(text, "ratios", ratios);
   append_section(text, "memory", memory_bytes);
+  if (!accuracy.numbers.empty()) {
+    append_section(text, "accuracy", accuracy.numbers);
+    append_section(text, "", accuracy.words);
+  }
   if (!heatmap.empty()) append_section(text, "heat map (per pixel)", heatmap);
   return text;
 }

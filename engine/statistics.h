@@ -11,6 +11,13 @@
 
 namespace tessera {
 
+/// How near a frame is known to be to its limit of many samples. Empty unless the settings ask for
+/// an error or a time.
+struct AccuracyStatistics {
+  std::vector<std::pair<std::string, double>> numbers;
+  std::vector<std::pair<std::string, std::string>> words;
+};
+
 /// Sections of (name, value) in the order they are to be read. Names are lower_snake_case with the
 /// unit as suffix.
 struct Statistics {
@@ -18,6 +25,7 @@ struct Statistics {
   std::vector<std::pair<std::string, uint64_t>> counts;
   std::vector<std::pair<std::string, double>> ratios;
   std::vector<std::pair<std::string, uint64_t>> memory_bytes;
+  AccuracyStatistics accuracy;
   std::vector<std::pair<std::string, double>> heatmap;  ///< per pixel; empty unless asked for
   std::vector<std::pair<std::string, std::string>> plan, options;
   std::vector<std::string> warnings;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "images/image.h"
+#include "images/texture_filters.h"
 #include "images/texture_sampler.h"
 
 namespace tessera {
@@ -15,6 +16,7 @@ namespace tessera {
 struct TextureSettings {
   size_t cache_bytes = size_t(256) << 20;
   std::vector<std::string> search_path;  ///< folders, in order
+  TextureFilter filter = TextureFilter::anisotropic;
 };
 
 class ImageModule {
@@ -37,9 +39,9 @@ class ImageModule {
 /// naming the file and the reason. The shared object stays loaded until the process ends.
 std::unique_ptr<ImageModule> load_image_module(const std::string& path = "");
 
-/// Entry point of the module: `tessera_image_module_1`, to be renamed with any change of the
+/// Entry point of the module: `tessera_image_module_2`, to be renamed with any change of the
 /// interfaces above, so that modules of another build are refused.
 using ImageModuleFactory = ImageModule* (*)();
-inline constexpr const char* image_module_entry = "tessera_image_module_1";
+inline constexpr const char* image_module_entry = "tessera_image_module_2";
 
 }  // namespace tessera

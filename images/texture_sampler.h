@@ -34,7 +34,7 @@ struct TextureResult {
 class TextureSampler {
  public:
   virtual ~TextureSampler() = default;
-  /// Writes the filtered values to `out`, [channel][point]: anisotropic up to 16, MIP-mapped
+  /// Writes the filtered values to `out`, [channel][point], MIP-mapped where the filter is
   /// (levels are made on the fly for plain pictures). Values are as stored, 8 and 16 bits scaled to
   /// [0, 1]; no transfer curve is undone. Points whose coordinates or footprint are not finite get
   /// 0. If the file cannot be read, `out` is left as it is and the result says so.

@@ -103,4 +103,4 @@ class OiioModule final : public ImageModule {
 }  // namespace tessera
 
 /// See ImageModuleFactory.
-extern "C" tessera::ImageModule* tessera_image_module_1() { return new tessera::OiioModule; }
+extern "C" tessera::ImageModule* tessera_image_module_2() { return new tessera::OiioModule; }

@@ -27,6 +27,27 @@ bool finite(const TexturePoints& p, size_t i) {
          std::isfinite(p.dtdx[i]) && std::isfinite(p.dsdy[i]) && std::isfinite(p.dtdy[i]);
 }
 
+/// What the library calls a filter. Magnified textures are bicubic with `anisotropic` alone.
+struct FilterModes {
+  OIIO::TextureOpt::MipMode mip;
+  OIIO::TextureOpt::InterpMode interpolation;
+};
+
+FilterModes filter_modes(TextureFilter filter) {
+  using Options = OIIO::TextureOpt;
+  switch (filter) {
+    case TextureFilter::point:
+      return {Options::MipModeNoMIP, Options::InterpClosest};
+    case TextureFilter::bilinear:
+      return {Options::MipModeNoMIP, Options::InterpBilinear};
+    case TextureFilter::trilinear:
+      return {Options::MipModeTrilinear, Options::InterpBilinear};
+    case TextureFilter::anisotropic:
+      break;
+  }
+  return {Options::MipModeAniso, Options::InterpSmartBicubic};
+}
+
 /// Beyond this many repetitions of the texture nothing but its mean is left; the squares of larger
 /// footprints overflow in the library, which then does not filter at all.
 float limited(float change) { return std::clamp(change, -1e6f, 1e6f); }
@@ -34,7 +55,8 @@ float limited(float change) { return std::clamp(change, -1e6f, 1e6f); }
 class OiioTextureSampler final : public TextureSampler {
  public:
   explicit OiioTextureSampler(const TextureSettings& settings)
-      : system_(OIIO::TextureSystem::create(/*shared=*/false)) {
+      : system_(OIIO::TextureSystem::create(/*shared=*/false)),
+        modes_(filter_modes(settings.filter)) {
     std::string path;
     for (const auto& folder : settings.search_path) path += (path.empty() ? "" : ":") + folder;
     system_->attribute("searchpath", path);
@@ -64,6 +86,7 @@ class OiioTextureSampler final : public TextureSampler {
     base.sblur = base.tblur = request.blur;
     base.swidth = base.twidth = request.filter_width;
     base.anisotropic = 16;
+    base.mipmode = modes_.mip, base.interpmode = modes_.interpolation;
     float value[max_channels];
     for (size_t i = 0; i < count; ++i) {
       std::fill_n(value, channels, 0.0f);
@@ -88,6 +111,7 @@ class OiioTextureSampler final : public TextureSampler {
   }
 
   OIIO::TextureSystem* system_;
+  FilterModes modes_;
 };
 
 }  // namespace

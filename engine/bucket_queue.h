@@ -1,0 +1,49 @@
+#pragma once
+/// The buckets of a pass over a frame, and the workers that render them.
+
+#include <atomic>
+#include <mutex>
+
+#include "engine/bucket_renderer.h"
+#include "engine/frame.h"
+#include "engine/frame_statistics.h"
+
+namespace tessera {
+
+/// Hands out buckets row by row, so that the film and the grids hold a narrow front of the frame.
+class BucketQueue {
+ public:
+  BucketQueue(const BucketLayout& buckets, const FrameControl& control)
+      : buckets_(buckets), control_(control) {}
+
+  /// False when none is left or the frame is cancelled.
+  bool take(int& i, int& j) {
+    if (control_.cancel && control_.cancel->load(std::memory_order_relaxed)) return false;
+    const int index = next_.fetch_add(1);
+    if (index >= buckets_.count()) return false;
+    i = index % buckets_.columns(), j = index / buckets_.columns();
+    return true;
+  }
+  void done() {
+    std::lock_guard lock(mutex_);
+    ++finished_;
+    if (control_.progress) control_.progress(finished_, buckets_.count());
+  }
+  /// No further bucket is handed out.
+  void stop() { next_ = buckets_.count(); }
+  bool complete() const { return finished_ == buckets_.count(); }
+
+ private:
+  const BucketLayout& buckets_;
+  const FrameControl& control_;
+  std::atomic<int> next_{0};
+  std::mutex mutex_;
+  int finished_ = 0;
+};
+
+/// Renders every bucket on `threads` workers. An exception in one of them reaches the caller after
+/// the others have stopped.
+void render_buckets(const FrameParts& parts, int threads, BucketQueue& queue,
+                    FrameStatistics& statistics);
+
+}  // namespace tessera

@@ -1,0 +1,217 @@
+#include "engine/frame_passes.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "cameras/camera_matrices.h"
+#include "engine/bucket_queue.h"
+#include "engine/overrides.h"
+#include "engine/version.h"
+#include "reconstruct/exposure.h"
+
+namespace tessera {
+namespace {
+
+std::vector<const AovDefinition*> channel_groups(const FramePlan& plan) {
+  std::vector<const AovDefinition*> groups;
+  for (const std::string& name : plan.channel_groups) groups.push_back(&find_aov(name));
+  return groups;
+}
+
+void add_metadata(FrameResult& frame, const Scene& scene) {
+  std::map<std::string, std::string>& metadata = frame.image.metadata;
+  metadata["software"] = fmt::format("Tessera {}", version);
+  metadata["tessera:scene"] = scene.file;
+  metadata["tessera:frame"] = std::to_string(scene.frame_number);
+  metadata["tessera:complete"] = frame.complete ? "yes" : "no, cancelled";
+  metadata["tessera:summary"] = frame.statistics.summary();
+  for (const auto& [name, value] : frame.statistics.plan) metadata["tessera:plan:" + name] = value;
+  for (const auto& [name, value] : frame.statistics.options)
+    metadata["tessera:option:" + name] = value;
+  metadata["capDate"] = fmt::format("{:%Y:%m:%d %H:%M:%S}", fmt::localtime(std::time(nullptr)));
+}
+
+/// What a depth file needs to become a shadow map, under OpenEXR's standard names.
+void add_matrices(FrameResult& frame, const Camera& camera) {
+  const CameraMatrices maps = camera_matrices(camera);
+  // The columns of a matrix for column vectors are the rows of one for row vectors.
+  const auto store = [&](const char* name, const glm::dmat4& matrix) {
+    std::array<float, 16>& rows = frame.image.matrices[name];
+    for (int i = 0; i < 16; ++i) rows[size_t(i)] = float(matrix[i / 4][i % 4]);
+  };
+  store("worldToCamera", maps.camera_from_world);
+  store("worldToNDC", maps.ndc_from_world);
+}
+
+/// What the film alone makes of the colours that another reconstruction gets, too.
+class PlainColours final : public Reconstruction {
+ public:
+  PlainColours(Reconstruction& filtered, const FilmSettings& settings)
+      : filtered_(filtered),
+        group_(
+            size_t(std::ranges::find(settings.groups, &find_aov("rgb")) - settings.groups.begin())),
+        film_(of_colours(settings)) {}
+
+  void add_bucket(int i, int j, SampleValues&& values) override {
+    SampleValues colours;
+    colours.rect = values.rect;
+    colours.samples_per_pixel = values.samples_per_pixel;
+    colours.first_of_pixel = values.first_of_pixel;
+    colours.x = values.x, colours.y = values.y;
+    colours.groups = {values.groups[group_]};
+    film_.add_bucket(i, j, std::move(colours));
+    filtered_.add_bucket(i, j, std::move(values));
+  }
+  Image finish() override { return film_.finish(); }
+  FilmCounters counters() const override { return film_.counters(); }
+
+ private:
+  static FilmSettings of_colours(FilmSettings settings) {
+    settings.groups = {&find_aov("rgb")};
+    return settings;
+  }
+
+  Reconstruction& filtered_;
+  size_t group_;
+  Film film_;
+};
+
+void encode(Image& image, float exposure_gamma) {
+  for (const char* name : {"R", "G", "B"})
+    for (Image::Channel& channel : image.channels)
+      if (channel.name == name)
+        for (float& value : channel.values) value = exposed(value, 1.0f, exposure_gamma);
+}
+
+}  // namespace
+
+FramePasses::FramePasses(const Scene& scene, const Settings& settings, Diagnostics& diagnostics,
+                         const FrameControl& control, bool several)
+    : settings_(settings),
+      diagnostics_(diagnostics),
+      control_(control),
+      several_(several),
+      scene_(apply_overrides(scene, settings)),
+      camera_(scene_.camera),
+      plan_([&] {
+        const auto bindings = bind_shaders(shade_setup(scene_, camera_, settings, diagnostics));
+        bindings_ = bindings;
+        FramePlan plan = make_plan(scene_, scene_.camera, settings, *bindings);
+        if (control.revise_plan) control.revise_plan(plan);
+        return plan;
+      }()),
+      buckets_(bucket_layout(plan_, camera_)),
+      threads_(thread_count(settings)),
+      groups_(channel_groups(plan_)),
+      hider_(make_hider(plan_.hider)) {
+  const ShadingFrame shaded = shading_frame(plan_, bindings_);
+  shading_ = control.make_shading ? control.make_shading(plan_.shading, shaded)
+                                  : make_shading(plan_.shading, shaded);
+  if (settings.heatmap) heatmap_.emplace(find_heatmap(*settings.heatmap), camera_.crop());
+  if (scene_.surfaces.empty()) return;
+  if (plan_.displacement) displacer_ = make_displacer(bindings_);
+  const DiceSettings dice = dice_settings(plan_, buckets_, settings, displacer_.get(), bindings_);
+  grids_ = make_grid_source(scene_, camera_, dice, diagnostics);
+  if (const auto rays = ray_tracer(plan_, scene_, camera_, settings, dice, threads_, diagnostics)) {
+    use_rays(*bindings_, rays);
+    statistics_.add(*rays);
+  }
+  statistics_.setup_done();
+}
+
+const ShutterProfile* FramePasses::shutter() const {
+  return plan_.motion ? &camera_.shutter_profile() : nullptr;
+}
+
+const LensProfile* FramePasses::lens() const {
+  return plan_.lens ? &camera_.lens_profile() : nullptr;
+}
+
+bool FramePasses::adaptive() const { return plan_.sample_tuples.kind == SampleTuples::Kind::free; }
+
+int FramePasses::lowest_level() const {
+  if (adaptive()) return 0;
+  // Those of the plan can be had as they divide evenly, and so can every multiple.
+  for (int level = 0; level < SampleAllocation::highest_level; ++level)
+    if ((1 << level) % plan_.samples_per_pixel == 0) return level;
+  throw Error(fmt::format(
+      "hider {}: an error or a time takes powers of two of samples per pixel, and {} are none; "
+      "expected another hider",
+      plan_.hider, plan_.samples_per_pixel));
+}
+
+PassResult FramePasses::render() {
+  const SamplePattern pattern(plan_.samples_per_pixel, settings_.seed, lens(), shutter(),
+                              plan_.sample_tuples, extras());
+  std::optional<ExtraPatterns> extra;
+  if (plan_.extra_samples > 0)
+    extra.emplace(plan_.extra_samples, settings_.seed, lens(), shutter(), extras());
+  return render({&pattern, extra ? &*extra : nullptr, nullptr, nullptr});
+}
+
+PassResult FramePasses::render(const SampleAllocation& allocation, uint32_t seed) {
+  const LevelPatterns levels(allocation, seed, lens(), shutter(), extras(),
+                             [&](int samples) { return hider_->sample_tuples(samples); });
+  return render({nullptr, nullptr, &allocation, &levels});
+}
+
+PassResult FramePasses::render(const Samples& samples) {
+  PassResult result;
+  const ReconstructionSettings reconstruction =
+      reconstruction_settings(plan_, buckets_, camera_, groups_, scene_.options.exposure_gain,
+                              several_ ? 1.0f : scene_.options.exposure_gamma, threads_);
+  const auto film = make_reconstruction(reconstruction);
+  std::optional<PlainColours> plain;
+  if (several_ && plan_.filters_distribution()) plain.emplace(*film, reconstruction.film);
+  if (grids_) {
+    const FrameParts parts{camera_,
+                           buckets_,
+                           samples.pattern,
+                           *hider_,
+                           {plan_.motion, plan_.lens, plan_.transparency},
+                           *bindings_,
+                           groups_,
+                           *grids_,
+                           *shading_,
+                           plain ? static_cast<Reconstruction&>(*plain) : *film,
+                           plan_.filters_distribution(),
+                           samples.extra,
+                           samples.allocation,
+                           samples.levels,
+                           several_,
+                           heatmap_ ? &*heatmap_ : nullptr};
+    BucketQueue queue(buckets_, control_);
+    render_buckets(parts, threads_, queue, statistics_);
+    result.complete = queue.complete();
+  }
+  result.image = film->finish();
+  if (plain) result.plain = plain->finish();
+  statistics_.add(*film);
+  return result;
+}
+
+FrameResult FramePasses::finish(PassResult&& pass, AccuracyStatistics&& accuracy) {
+  FrameResult result;
+  result.complete = pass.complete;
+  result.image = std::move(pass.image);
+  const float gamma = scene_.options.exposure_gamma;
+  result.display_encoded = gamma != 1.0f;
+  if (several_ && result.display_encoded) encode(result.image, gamma);
+  result.image.pixel_aspect = scene_.camera.pixel_aspect;
+  if (grids_) statistics_.add(*grids_);
+  if (heatmap_) {
+    result.heatmap = heatmap_->definition().name;
+    heatmap_->add_channel(result.image);
+    statistics_.add(heatmap_scale(result.image, result.heatmap), *heatmap_, plan_, diagnostics_);
+  }
+  result.statistics = statistics_.finish(plan_, scene_, settings_, threads_, diagnostics_);
+  result.statistics.accuracy = std::move(accuracy);
+  add_metadata(result, scene_);
+  add_matrices(result, camera_);
+  return result;
+}
+
+}  // namespace tessera

@@ -1,0 +1,69 @@
+#include "engine/qualities.h"
+
+#include <string>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+
+namespace tessera {
+namespace {
+
+// clang-format off
+constexpr QualityDefinition definitions[] = {
+    {.name = "draft", .help = "what is where: a few samples, coarse shading",
+     .samples_per_pixel = 4, .error = {}, .max_samples = {},
+     .shading_rate = 4.0f, .dicing_rate = 4.0f, .extra_samples = 0,
+     .texture_filter = "trilinear"},
+    {.name = "preview", .help = "an error of 0.03",
+     .samples_per_pixel = {}, .error = 0.03, .max_samples = 64,
+     .shading_rate = {}, .dicing_rate = {}, .extra_samples = {}},
+    {.name = "final", .help = "an error of 0.01",
+     .samples_per_pixel = {}, .error = 0.01, .max_samples = 1024,
+     .shading_rate = {}, .dicing_rate = {}, .extra_samples = {}},
+};
+// clang-format on
+
+template <class T>
+void complete(std::optional<T>& setting, const std::optional<T>& value) {
+  if (!setting) setting = value;
+}
+
+void complete(std::optional<std::string>& setting, const char* value) {
+  if (!setting && value) setting = value;
+}
+
+}  // namespace
+
+std::span<const QualityDefinition> quality_registry() { return definitions; }
+
+const QualityDefinition& find_quality(std::string_view name) {
+  std::string choices;
+  for (const QualityDefinition& definition : definitions) {
+    if (name == definition.name) return definition;
+    choices += fmt::format("{}{}", choices.empty() ? "" : ", ", definition.name);
+  }
+  throw Error(fmt::format("quality '{}' is unknown; expected one of {}", name, choices));
+}
+
+Settings with_quality(const Settings& settings) {
+  if (!settings.quality) return settings;
+  const QualityDefinition& quality = find_quality(*settings.quality);
+  Settings result = settings;
+  const bool counted =
+      settings.samples_per_pixel || settings.error || settings.time_s || !settings.rounds.empty();
+  if (!counted) {
+    result.samples_per_pixel = quality.samples_per_pixel;
+    result.error = quality.error;
+    complete(result.max_samples, quality.max_samples);
+  }
+  complete(result.shading_rate, quality.shading_rate);
+  complete(result.dicing_rate, quality.dicing_rate);
+  complete(result.extra_samples, quality.extra_samples);
+  complete(result.hider, quality.hider);
+  complete(result.reconstruct, quality.reconstruct);
+  complete(result.texture_filter, quality.texture_filter);
+  return result;
+}
+
+}  // namespace tessera
