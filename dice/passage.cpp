@@ -26,8 +26,8 @@ Shares negative_shares(double f0, double f1) {
   return {f1 < 0 ? f0 / (f0 - f1) : 1, 1};
 }
 
-/// The shares at which no side of the frame has all of the segment beyond it, and what lies between
-/// them.
+/// The shares but for those before and after which all of the segment is beyond some side of the
+/// frame; what turns may be beyond one for a while in between, too.
 Shares shares_in_frame(const RasterProjection& projection, const MovingSegment& s) {
   const auto a0 = projection.inside(s.a0), b0 = projection.inside(s.b0);
   const auto a1 = projection.inside(s.a1), b1 = projection.inside(s.b1);
@@ -37,14 +37,11 @@ Shares shares_in_frame(const RasterProjection& projection, const MovingSegment& 
     const Shares b = negative_shares(b0[side], b1[side]);
     beyond[side] = {std::max(a.first, b.first), std::min(a.last, b.last)};
   }
-  // Where one side ends another that was looked at before may begin: as many rounds as sides.
   Shares seen;
-  for (size_t round = 0; round < side_count; ++round) {
-    for (const Shares& out : beyond) {
-      if (out.empty()) continue;
-      if (out.first <= seen.first) seen.first = std::max(seen.first, out.last);
-      if (out.last >= seen.last) seen.last = std::min(seen.last, out.first);
-    }
+  for (const Shares& out : beyond) {
+    if (out.empty()) continue;
+    if (out.first == 0) seen.first = std::max(seen.first, out.last);
+    if (out.last == 1) seen.last = std::min(seen.last, out.first);
   }
   return seen;
 }
