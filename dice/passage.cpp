@@ -62,6 +62,7 @@ glm::vec3 point_at(double share, const glm::vec3& p0, const glm::vec3& p1) {
 float longest_length(const RasterProjection& projection, const MovingSegment& s) {
   float longest = std::max(projection.segment_length(s.a0, s.b0),  //
                            projection.segment_length(s.a1, s.b1));
+  if (s.a0 == s.a1 && s.b0 == s.b1) return longest;
   const auto see = [&](double share, float frames) {
     if (!(share > 0 && share < 1)) return;  // a key
     const glm::vec3 a = point_at(share, s.a0, s.a1), b = point_at(share, s.b0, s.b1);
