@@ -11,6 +11,7 @@
 
 #include "dice/grid_builder.h"
 #include "dice/normals.h"
+#include "dice/passage.h"
 
 namespace tessera {
 
@@ -41,14 +42,56 @@ glm::dvec3 unit_or_zero(const glm::dvec3& n) {
   return length > 0 && std::isfinite(length) ? n / length : glm::dvec3(0);
 }
 
-// Parameter step that is about as long as a micropolygon, given two points `probe` apart. Seen
-// edge on it stops growing, at twice its length when seen squarely.
-float stencil_step(const DiceRate& rate, const glm::vec3& a, const glm::vec3& b, float probe) {
-  const glm::vec3 across = a + glm::vec3(glm::distance(a, b), 0, 0);
-  const float pixels = std::max(rate.projection->segment_length(a, b),
-                                0.5f * rate.projection->segment_length(a, across));
+// Pixels from one of two points to the other on the way between two keys. Seen edge on they stop
+// shrinking, at half of what they are when seen squarely.
+float probe_pixels(const RasterProjection& projection, const MovingSegment& s) {
+  const auto across = [](const glm::vec3& a, const glm::vec3& b) {
+    return a + glm::vec3(glm::distance(a, b), 0, 0);
+  };
+  const MovingSegment squarely{s.a0, across(s.a0, s.b0), s.a1, across(s.a1, s.b1)};
+  return std::max(longest_length(projection, s), 0.5f * longest_length(projection, squarely));
+}
+
+// Parameter step that is about as long as a micropolygon, if `probe` is `pixels` long.
+float stencil_step(const DiceRate& rate, float pixels, float probe) {
   constexpr float narrowest = float(DiceRate::min_width) / 32;
   return pixels > 0 ? std::clamp(probe * rate.step / pixels, narrowest, 0.25f) : 0.25f;
+}
+
+// A place of a patch, and the ends of the probes from there along u and v.
+struct Probes {
+  glm::vec3 p, pu, pv;
+};
+
+// The probes at `key`, from 3 parameters a place.
+std::vector<Probes> probes_at(const Patch& patch, int key, const AlignedVector<float>& u,
+                              const AlignedVector<float>& v, size_t places) {
+  const size_t stride = u.size();
+  AlignedVector<float> P(3 * stride);
+  patch.points(key, {u.data(), 3 * places}, {v.data(), 3 * places},
+               PatchOutput{{P.data(), P.data() + stride, P.data() + 2 * stride}, {}});
+  std::vector<Probes> probes;
+  for (size_t k = 0; k < 3 * places; k += 3) {
+    probes.push_back({point(P, stride, k), point(P, stride, k + 1), point(P, stride, k + 2)});
+  }
+  return probes;
+}
+
+// The most pixels that the probes span along u and v at any time.
+std::vector<glm::vec2> pixels_of(const Patch& patch, const DiceRate& rate,
+                                 const AlignedVector<float>& u, const AlignedVector<float>& v,
+                                 std::vector<Probes> from) {
+  std::vector<glm::vec2> pixels(from.size(), glm::vec2(0));
+  for (int key = 0; key < rate.key_count(); ++key) {
+    std::vector<Probes> to = probes_at(patch, key, u, v, from.size());
+    for (size_t i = 0; i < to.size(); ++i) {
+      const Probes &a = from[i], &b = to[i];
+      pixels[i].x = std::max(pixels[i].x, probe_pixels(*rate.projection, {a.p, a.pu, b.p, b.pu}));
+      pixels[i].y = std::max(pixels[i].y, probe_pixels(*rate.projection, {a.p, a.pv, b.p, b.pv}));
+    }
+    from = std::move(to);
+  }
+  return pixels;
 }
 
 }  // namespace
@@ -66,21 +109,19 @@ std::vector<glm::dvec3> GridBuilder::place_stencils(const Patch& patch,
     u[3 * i] = u[3 * i + 2] = x, u[3 * i + 1] = x < 0.5f ? x + probe : x - probe;
     v[3 * i] = v[3 * i + 1] = y, v[3 * i + 2] = y < 0.5f ? y + probe : y - probe;
   }
-  AlignedVector<float> P(3 * stride);
-  const PatchOutput out{{P.data(), P.data() + stride, P.data() + 2 * stride}, {}};
-  patch.points(0, {u.data(), 3 * count}, {v.data(), 3 * count}, out);
+  const std::vector<Probes> probes = probes_at(patch, 0, u, v, count);
+  const std::vector<glm::vec2> pixels = pixels_of(patch, context_.rate, u, v, probes);
 
   const size_t run = padded(stencil_points * count);
   u.assign(run, 0.0f), v.assign(run, 0.0f);
   std::vector<glm::dvec3> normals;
   for (size_t i = 0; i < count; ++i) {
     const float x = float(places[i].x), y = float(places[i].y);
-    const glm::vec3 p = point(P, stride, 3 * i);
-    const glm::vec3 pu = point(P, stride, 3 * i + 1), pv = point(P, stride, 3 * i + 2);
+    const auto& [p, pu, pv] = probes[i];
     const double sign = (x < 0.5f) == (y < 0.5f) ? 1 : -1;
     normals.push_back(unit_or_zero(sign * glm::cross(glm::dvec3(pu - p), glm::dvec3(pv - p))));
-    const auto along_u = derivative_nodes(x, stencil_step(context_.rate, p, pu, probe));
-    const auto along_v = derivative_nodes(y, stencil_step(context_.rate, p, pv, probe));
+    const auto along_u = derivative_nodes(x, stencil_step(context_.rate, pixels[i].x, probe));
+    const auto along_v = derivative_nodes(y, stencil_step(context_.rate, pixels[i].y, probe));
     const size_t at = stencil_points * i;
     std::fill_n(u.data() + at, stencil_points, x);
     std::fill_n(v.data() + at, stencil_points, y);

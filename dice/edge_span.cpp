@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "dice/passage.h"
+
 namespace tessera {
 
 const Patch* PatchCache::get(uint32_t index) {
@@ -39,7 +41,14 @@ RowSegments segments_of(const EdgeSpan& span, const Patch& patch, const DiceRate
     t[i] = float(at), u[i] = float(uv.x), v[i] = float(uv.y);
   }
   const PatchOutput out{{x, y, z}, {}};
+  const auto add_row = [&](const auto& length_of) {
+    RowLength row;
+    for (size_t i = 1; i < count; ++i) row.add(length_of(i - 1, i));
+    size.add(row);
+  };
+  const RasterProjection& projection = *rate.projection;
   LeastBlur blur;
+  Passage passage(projection);
   for (int key = 0; key < rate.key_count(); ++key) {
     if (span.curve.is_side()) {
       patch.side(key, int(span.curve.line), span.curve.flip, {t, count}, out);
@@ -47,14 +56,12 @@ RowSegments segments_of(const EdgeSpan& span, const Patch& patch, const DiceRate
       patch.points(key, {u, count}, {v, count}, out);
     }
     for (size_t i = 0; i < count; ++i) P[i] = {x[i], y[i], z[i]};
-    RowLength row;
-    for (size_t i = 1; i < count; ++i) {
-      row.add(rate.projection->segment_length(P[i - 1], P[i]));
-    }
-    size.add(row);
+    add_row([&](size_t a, size_t b) { return projection.segment_length(P[a], P[b]); });
+    if (rate.key_count() > 1) passage.add_key({P.data(), count});
+    if (passage.matters()) add_row([&](size_t a, size_t b) { return passage.length(a, b); });
     if (!rate.follows_blur()) continue;
-    blur.add_key(*rate.projection, rate.key_times[size_t(key)], {P.data(), count});
-    for (size_t i = 2; i < count; ++i) size.add_bend(*rate.projection, P[i - 2], P[i - 1], P[i]);
+    blur.add_key(projection, rate.key_times[size_t(key)], {P.data(), count});
+    for (size_t i = 2; i < count; ++i) size.add_bend(projection, P[i - 2], P[i - 1], P[i]);
   }
   return segments_of(size, rate.step_under(blur));
 }

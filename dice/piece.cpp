@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "dice/passage.h"
+
 namespace tessera {
 
 ParameterRect Piece::vertex_rect() const {
@@ -13,50 +15,92 @@ ParameterRect Piece::vertex_rect() const {
   return r;
 }
 
-void measure(Piece& piece, PatchCache& cache, const DiceRate& rate) {
-  constexpr int most_pieces = 8, stride = 16;
-  alignas(64) float u[stride] = {}, v[stride] = {};
-  alignas(64) float x[3][(most_pieces + 1) * stride];
-  std::array<glm::vec3, LeastBlur::most_samples> P;
-  const Patch* patch = cache.get(piece.patch);
-  RowSize along_u, along_v;
-  const int pieces = along_u.pieces = along_v.pieces =
-      std::min(patch->sample_segments(), most_pieces);
-  const ParameterRect& r = piece.rect;
-  for (int i = 0; i <= pieces; ++i) {
-    u[i] = float(r.u0 + (r.u1 - r.u0) * i / pieces);
-    v[i] = float(r.v0 + (r.v1 - r.v0) * i / pieces);
-  }
-  const size_t count = size_t(pieces) + 1;
-  const auto at = [&](int i, int j) -> glm::vec3& { return P[size_t(j) * count + size_t(i)]; };
-  LeastBlur blur;
-  for (int key = 0; key < rate.key_count(); ++key) {
-    patch->tensor(key, {u, count}, {v, count}, stride, PatchOutput{{x[0], x[1], x[2]}, {}});
+namespace {
+
+constexpr int most_sample_pieces = 8;
+
+/// Samples of a piece, evenly over its rectangle: element j * count + i is at u = i, v = j.
+struct PieceSamples {
+  int pieces = 1;  ///< samples along u or v less one
+  std::array<glm::vec3, LeastBlur::most_samples> P_camera;
+
+  size_t side() const { return size_t(pieces) + 1; }
+  size_t index(int i, int j) const { return size_t(j) * side() + size_t(i); }
+  const glm::vec3& at(int i, int j) const { return P_camera[index(i, j)]; }
+  std::span<const glm::vec3> all() const { return {P_camera.data(), side() * side()}; }
+
+  void take(const Patch& patch, const ParameterRect& r, int key) {
+    constexpr int stride = 16;
+    alignas(64) float u[stride] = {}, v[stride] = {};
+    alignas(64) float x[3][(most_sample_pieces + 1) * stride];
+    for (int i = 0; i <= pieces; ++i) {
+      u[i] = float(r.u0 + (r.u1 - r.u0) * i / pieces);
+      v[i] = float(r.v0 + (r.v1 - r.v0) * i / pieces);
+    }
+    patch.tensor(key, {u, side()}, {v, side()}, stride, PatchOutput{{x[0], x[1], x[2]}, {}});
     for (int j = 0; j <= pieces; ++j) {
       for (int i = 0; i <= pieces; ++i) {
         const int k = j * stride + i;
-        at(i, j) = {x[0][k], x[1][k], x[2][k]};
+        P_camera[index(i, j)] = {x[0][k], x[1][k], x[2][k]};
       }
     }
-    for (int row = 0; row <= pieces; ++row) {
+  }
+};
+
+/// The rows and columns of a piece.
+struct PieceSize {
+  RowSize along_u, along_v;
+
+  /// `length_of(a, b)`: pixels between two samples, by index.
+  template <class LengthOf>
+  void add_rows(const PieceSamples& samples, const LengthOf& length_of) {
+    for (int row = 0; row <= samples.pieces; ++row) {
       RowLength length_u, length_v;
-      for (int k = 0; k < pieces; ++k) {
-        length_u.add(rate.projection->segment_length(at(k, row), at(k + 1, row)));
-        length_v.add(rate.projection->segment_length(at(row, k), at(row, k + 1)));
+      for (int k = 0; k < samples.pieces; ++k) {
+        length_u.add(length_of(samples.index(k, row), samples.index(k + 1, row)));
+        length_v.add(length_of(samples.index(row, k), samples.index(row, k + 1)));
       }
       along_u.add(length_u);
       along_v.add(length_v);
-      for (int k = 2; rate.follows_blur() && k <= pieces; ++k) {
-        along_u.add_bend(*rate.projection, at(k - 2, row), at(k - 1, row), at(k, row));
-        along_v.add_bend(*rate.projection, at(row, k - 2), at(row, k - 1), at(row, k));
-      }
-    }
-    if (rate.follows_blur()) {
-      blur.add_key(*rate.projection, rate.key_times[size_t(key)], {P.data(), count * count});
     }
   }
+
+  void add_bends(const RasterProjection& projection, const PieceSamples& s) {
+    for (int row = 0; row <= s.pieces; ++row) {
+      for (int k = 2; k <= s.pieces; ++k) {
+        along_u.add_bend(projection, s.at(k - 2, row), s.at(k - 1, row), s.at(k, row));
+        along_v.add_bend(projection, s.at(row, k - 2), s.at(row, k - 1), s.at(row, k));
+      }
+    }
+  }
+};
+
+}  // namespace
+
+void measure(Piece& piece, PatchCache& cache, const DiceRate& rate) {
+  const Patch* patch = cache.get(piece.patch);
+  const RasterProjection& projection = *rate.projection;
+  PieceSamples samples;
+  PieceSize size;
+  size.along_u.pieces = size.along_v.pieces = samples.pieces =
+      std::min(patch->sample_segments(), most_sample_pieces);
+  LeastBlur blur;
+  Passage passage(projection);
+  for (int key = 0; key < rate.key_count(); ++key) {
+    samples.take(*patch, piece.rect, key);
+    size.add_rows(samples, [&](size_t a, size_t b) {
+      return projection.segment_length(samples.P_camera[a], samples.P_camera[b]);
+    });
+    if (rate.key_count() > 1) passage.add_key(samples.all());
+    if (passage.matters()) {
+      size.add_rows(samples, [&](size_t a, size_t b) { return passage.length(a, b); });
+    }
+    if (!rate.follows_blur()) continue;
+    size.add_bends(projection, samples);
+    blur.add_key(projection, rate.key_times[size_t(key)], samples.all());
+  }
   const DiceStep step = rate.step_under(blur);
-  const RowSegments in_u = segments_of(along_u, step), in_v = segments_of(along_v, step);
+  const RowSegments in_u = segments_of(size.along_u, step), in_v = segments_of(size.along_v, step);
   piece.u_count = in_u.count, piece.u_most = in_u.most;
   piece.v_count = in_v.count, piece.v_most = in_v.most;
   // Never fewer than the vertices of an edge, or the grid could not touch all of them.

@@ -28,19 +28,31 @@ RasterProjection::RasterProjection(const Camera& camera, const PixelRect& crop)
   reach_y_ = farthest(map_.y_from_w, frame.y0, frame.y1);
 }
 
-float RasterProjection::visible_w(const glm::vec3& P_camera, float w) const {
+float RasterProjection::visible_w(const glm::vec3& P_camera, float w, float frames) const {
   const auto entry = [&](float lateral, float reach, const AffineInZ& coc) {
     return (std::abs(lateral) - lens_extent_ * std::abs(coc.offset)) /
-           (reach + lens_extent_ * std::abs(coc.scale));
+           (frames * reach + lens_extent_ * std::abs(coc.scale));
   };
   const float w_x = entry(map_.x_scale * P_camera.x, reach_x_, map_.coc_x);
   const float w_y = entry(map_.y_scale * P_camera.y, reach_y_, map_.coc_y);
   return std::max({w, w_x, w_y, std::max(near_, 1e-20f)});
 }
 
-bool RasterProjection::in_frame(const glm::vec3& P_camera) const {
+std::array<double, RasterProjection::side_count> RasterProjection::inside(
+    const glm::vec3& P_camera) const {
+  // visible_w() <= w, multiplied out.
+  const double w = double(map_.w_from_z) * P_camera.z + map_.w_constant, lens = lens_extent_;
+  const auto half_width = [&](double reach, const AffineInZ& coc) {
+    return (reach + lens * std::abs(coc.scale)) * w + lens * std::abs(coc.offset);
+  };
+  const double x = double(map_.x_scale) * P_camera.x, y = double(map_.y_scale) * P_camera.y;
+  const double half_x = half_width(reach_x_, map_.coc_x), half_y = half_width(reach_y_, map_.coc_y);
+  return {half_x + x, half_x - x, half_y + y, half_y - y, w - std::max(near_, 1e-20f)};
+}
+
+bool RasterProjection::in_frame(const glm::vec3& P_camera, float frames) const {
   const float w = map_.w_from_z * P_camera.z + map_.w_constant;
-  return w > 0 && visible_w(P_camera, w) <= std::max(w, near_);
+  return w > 0 && visible_w(P_camera, w, frames) <= std::max(w, near_);
 }
 
 float RasterProjection::turned_length(const glm::vec3& a, const glm::vec3& b) const {
@@ -56,19 +68,20 @@ float RasterProjection::turned_length(const glm::vec3& a, const glm::vec3& b) co
   return std::isfinite(length) ? float(std::min(length, 1e9)) : 0.0f;
 }
 
-float RasterProjection::segment_length(const glm::vec3& a, const glm::vec3& b) const {
-  if (!(least_distance_ > 0)) return seen_length(a, b);
+float RasterProjection::segment_length(const glm::vec3& a, const glm::vec3& b, float frames) const {
+  if (!(least_distance_ > 0)) return seen_length(a, b, frames);
   const float turned = turned_length(a, b);
-  return in_frame(a) && in_frame(b) ? std::max(turned, seen_length(a, b)) : turned;
+  const bool both_in = in_frame(a, frames) && in_frame(b, frames);
+  return both_in ? std::max(turned, seen_length(a, b, frames)) : turned;
 }
 
-float RasterProjection::seen_length(const glm::vec3& a, const glm::vec3& b) const {
+float RasterProjection::seen_length(const glm::vec3& a, const glm::vec3& b, float frames) const {
   float w_a = map_.w_from_z * a.z + map_.w_constant;
   float w_b = map_.w_from_z * b.z + map_.w_constant;
   if (w_a <= 0 && w_b <= 0) return 0;
   float most = std::numeric_limits<float>::max();
   if (perspective_) {
-    w_a = visible_w(a, w_a), w_b = visible_w(b, w_b);
+    w_a = visible_w(a, w_a, frames), w_b = visible_w(b, w_b, frames);
     // A segment as long as its distance from the camera plane spans about pixels_per_unit; what
     // passes through the lens itself is given a few times that.
     most = 4 * pixels_per_unit_;

@@ -1,6 +1,7 @@
 #pragma once
 /// Sizes and bounds on the raster, over the shutter and the lens.
 
+#include <array>
 #include <span>
 
 #include "cameras/camera.h"
@@ -20,11 +21,20 @@ class RasterProjection {
   /// After turn_to_eye() instead: half the length that the segment would have in the middle of the
   /// frame, squarely and at its own distance from the eye, or, if both ends are in the frame and it
   /// looks longer, what it looks like.
-  float segment_length(const glm::vec3& a, const glm::vec3& b) const;
+  ///
+  /// `frames`: as if the frame were that many times as wide and as high, about the optical axis.
+  float segment_length(const glm::vec3& a, const glm::vec3& b, float frames = 1) const;
+
+  /// Signed distances, each in a unit of its own, from the frame's four sides and its near plane,
+  /// linear in P_camera; negative beyond a side for every point of the lens. A segment of which
+  /// both ends are beyond one side is not in the frame.
+  static constexpr size_t side_count = 5;
+  std::array<double, side_count> inside(const glm::vec3& P_camera) const;
 
   /// Makes segment_length() measure what is out of sight, too. What is nearer than
   /// `least_distance` (camera units, positive) counts as if it were at that distance.
   void turn_to_eye(float least_distance) { least_distance_ = least_distance; }
+  bool turned_to_eye() const { return least_distance_ > 0; }
 
   /// Whether nothing in the convex hull of `points`, grown by `radius` (camera units), can be seen
   /// in the crop rectangle by any lens coordinate. Separating planes through the eye: needs no
@@ -40,14 +50,15 @@ class RasterProjection {
   /// Largest |u| or |v| on the lens; 0 for a pinhole.
   float lens_extent() const { return lens_extent_; }
   float near_clip() const { return near_; }
+  bool perspective() const { return perspective_; }
 
  private:
   /// The least W, at least `w` and the near plane, at which a point with this x and y could be in
-  /// the frame from some point of the lens.
-  float visible_w(const glm::vec3& P_camera, float w) const;
+  /// `frames` frames from some point of the lens.
+  float visible_w(const glm::vec3& P_camera, float w, float frames) const;
 
-  bool in_frame(const glm::vec3& P_camera) const;
-  float seen_length(const glm::vec3& a, const glm::vec3& b) const;
+  bool in_frame(const glm::vec3& P_camera, float frames) const;
+  float seen_length(const glm::vec3& a, const glm::vec3& b, float frames) const;
   float turned_length(const glm::vec3& a, const glm::vec3& b) const;
 
   /// Adds one camera-space point through the whole lens; returns false (and adds nothing) when it

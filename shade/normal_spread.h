@@ -46,6 +46,8 @@ float mean_specular_lobe(const glm::vec3& N, const glm::vec3& H, float exponent,
                          const NormalSpread& spread);
 
 /// The mean of max(0, x + y + z) over y in [-p / 2, p / 2] and z in [-q / 2, q / 2]; p or q > 0.
+/// Only for |x| < (p + q) / 2: beyond, it is max(0, x), but the differences that give it lose
+/// digits as (x / p)(x / q) grows, 1e-3 of it where both are 1e-7 of x, and all at 1e-9.
 float mean_positive_part(float x, float p, float q);
 
 /// The mean over the cell of max(0, n . L), with the shortening of the mean normal by its

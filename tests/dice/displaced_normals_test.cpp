@@ -183,5 +183,68 @@ TEST_CASE("displacement keeps creases", "[dice][displacement]") {
   CHECK(checked > 1000);
 }
 
+// Along the radii of a unit sphere.
+double ripples(const glm::dvec3& radius) {
+  return 0.02 * std::sin(25 * radius.x) * std::cos(22 * radius.y);
+}
+
+class Ripples final : public Displacer {
+ public:
+  explicit Ripples(const glm::dvec3& about) : about_(about) {}
+  void displace(const Grid& grid, std::span<float> distance) const override {
+    for (int k = 0; k < grid.vertex_count(); ++k)
+      distance[size_t(k)] = float(ripples(glm::normalize(position(grid, k) - about_)));
+  }
+
+ private:
+  glm::dvec3 about_;
+};
+
+// The mean angle on boundaries between a vertex's normal and that of the rippled sphere there.
+double mean_error_degrees(double x_at_open, double x_at_close) {
+  const glm::dvec3 about(x_at_open, 0, 5);
+  const Ripples displacer(about);
+  DiceScene s(200, 200);
+  s.scene.camera.shutter_close = 1;
+  Attributes attributes;
+  attributes.displacement.emplace();
+  attributes.displacement_bound = 0.2f;
+  attributes.motion_factor = 0;
+  s.settings.displacer = &displacer;
+  Surface& ball = s.add(geometry(Quadric{Quadric::Kind::sphere, {{1, -0.8f, 0.8f, 360}}}),
+                        glm::dmat4(1), attributes);
+  const auto at = [](double x) { return glm::translate(glm::dmat4(1), glm::dvec3(x, 0, 5)); };
+  ball.world_from_object = MovingTransform({0.0f, 1.0f}, {at(x_at_open), at(x_at_close)});
+  double sum = 0;
+  int count = 0;
+  for (const auto& grid : s.all_grids()) {
+    for (int k = 0; k < grid->vertex_count(); ++k) {
+      if (!on_boundary(*grid, k)) continue;
+      const glm::dvec3 d = glm::normalize(position(*grid, k) - about);
+      const auto surface = [](const glm::dvec3& near) {
+        const glm::dvec3 radius = glm::normalize(near);
+        return (1 + ripples(radius)) * radius;
+      };
+      const glm::dvec3 t = glm::normalize(glm::cross(d, glm::dvec3(0.3, 0.5, 0.8)));
+      const glm::dvec3 u = 1e-5 * t, v = 1e-5 * glm::cross(d, t);
+      const glm::dvec3 expected = glm::normalize(glm::cross(surface(d + u) - surface(d - u),  //
+                                                            surface(d + v) - surface(d - v)));
+      const double cosine = std::abs(glm::dot(expected, normal(*grid, k)));
+      sum += glm::degrees(std::acos(std::min(1.0, cosine))), ++count;
+    }
+  }
+  CHECK(count > 500);
+  return sum / count;
+}
+
+TEST_CASE("stencils are as narrow as where the surface is seen, at whatever time",
+          "[dice][displaced_normals]") {
+  const double still = mean_error_degrees(0, 0);
+  CHECK(still < 2);
+  CHECK(mean_error_degrees(0, 60) < 1.2 * still + 0.1);
+  CHECK(mean_error_degrees(-60, 0) < 1.2 * still + 0.1);
+  CHECK(mean_error_degrees(-60, 60) < 1.2 * still + 0.1);
+}
+
 }  // namespace
 }  // namespace tessera::test

@@ -335,5 +335,20 @@ TEST_CASE("displaced closed surfaces are watertight", "[dice][watertight][displa
   }
 }
 
+TEST_CASE("what passes the frame between keys is watertight", "[dice][watertight]") {
+  for (const double x : {8.0, 100.0, 5000.0}) {
+    INFO("from -" << x << " to " << x);
+    DiceScene s;
+    s.scene.camera.shutter_close = 1;
+    Surface& torus = s.add(geometry(torus_cage(7, 5), torus_points(7, 5)));
+    const auto at = [](double to_side, double angle) {
+      return glm::rotate(glm::translate(glm::dmat4(1), glm::dvec3(to_side, 0, 5)), angle,
+                         glm::dvec3(1, 1, 0));
+    };
+    torus.world_from_object = MovingTransform({0.0f, 1.0f}, {at(-x, 0.6), at(x, 0.9)});
+    require_closed(s);
+  }
+}
+
 }  // namespace
 }  // namespace tessera::test
