@@ -283,7 +283,6 @@ TEST_CASE("lengths of what stays where it is, or is no number, are those of the 
       MovingSegment s = random_segment(random, 1);
       s.a1 = s.a0, s.b1 = s.b0;
       const float still = projection.segment_length(s.a0, s.b0);
-      // Only an end beside the frame may make it count for more, at no time of its own.
       CHECK(longest_length(projection, s) == still);
     }
     for (const float bad : {inf, -inf, nan, 3e38f, -3e38f}) {
