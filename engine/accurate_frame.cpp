@@ -16,9 +16,6 @@ namespace {
 /// Keeps the passes of a frame apart from each other, and from a frame of one pass.
 constexpr uint32_t pass_seed = 0x5eedacc1u;
 
-/// Bytes of pixels written in a second, at the least that is to be expected.
-constexpr double written_bytes_per_s = 4e7;
-
 class Rounds {
  public:
   Rounds(FramePasses& passes, const Settings& settings, Diagnostics& diagnostics)
@@ -27,7 +24,7 @@ class Rounds {
         diagnostics_(diagnostics),
         target_(accuracy_target(settings)),
         mean_(passes.groups()),
-        planner_(target_, double(1 << lowest_level()), write_s(),
+        planner_(target_, double(1 << lowest_level()), write_seconds(passes),
                  passes.plan().filters_distribution()) {}
 
   FrameResult render() {
@@ -49,11 +46,6 @@ class Rounds {
   /// A filter that tells noise from two halves of a pixel's samples needs two of them.
   int lowest_level() const {
     return std::max(passes_.plan().filters_distribution() ? 1 : 0, passes_.lowest_level());
-  }
-
-  double write_s() const {
-    const double pixels = double(passes_.crop().pixel_count());
-    return 4 * double(passes_.plan().channel_groups.size() + 2) * pixels / written_bytes_per_s;
   }
 
   PassResult pass(const SampleAllocation& allocation) {

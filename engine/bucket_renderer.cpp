@@ -31,16 +31,20 @@ SampleValues BucketRenderer::allocated(const PixelRect& rect, const Grids& grids
   const auto [lowest, highest] = std::ranges::minmax(chosen);
   SampleValues values;
   for (int choice = lowest; choice <= highest; ++choice) {
-    const PixelRect bounds = choice == lowest ? rect : bounds_of(chosen, rect, uint8_t(choice));
-    if (bounds.empty()) continue;
+    const auto level = uint8_t(choice);
+    if (std::ranges::find(chosen, level) == chosen.end()) continue;
     const SamplePattern& pattern = parts_.levels->pattern(choice - 1);
-    visit(pattern, bounds, grids);
-    if (lowest != highest) keep_chosen(chosen, rect, uint8_t(choice), samples_, fragments_);
-    if (choice == lowest)
+    if (choice == lowest) {
+      visit(pattern, rect, grids);
+      if (lowest != highest) keep_chosen(chosen, rect, level, samples_, fragments_);
       values = counted_by_pixel(shade(grids));
-    else
-      replace_chosen(chosen, uint8_t(choice), shade(grids), values);
-    map_samples(chosen, uint8_t(choice), rect, uint32_t(pattern.samples_per_pixel()));
+    } else {
+      for (const PixelRect& part : parts_of(chosen, rect, level)) {
+        visit(pattern, part, grids);
+        replace_part(shade(grids), values);
+      }
+    }
+    map_samples(chosen, level, rect, uint32_t(pattern.samples_per_pixel()));
   }
   return values;
 }

@@ -152,8 +152,11 @@ void keep_chosen(const std::vector<uint8_t>& chosen, const PixelRect& rect, uint
 
 namespace {
 
-void merge_chosen(const std::vector<uint8_t>& chosen, uint8_t choice, bool keeps_own,
-                  SampleValues& extra, SampleValues& values) {
+/// For each pixel of `values` that chose(pixel), its samples in `extra`: besides its own or
+/// instead of them.
+template <class Chose>
+void merge_where(const Chose& chose_pixel, bool keeps_own, SampleValues& extra,
+                 SampleValues& values) {
   const size_t pixels = size_t(values.rect.pixel_count());
   const auto spp = uint32_t(values.samples_per_pixel), more = uint32_t(extra.samples_per_pixel);
   std::vector<uint32_t> first_of_pixel{0};
@@ -162,7 +165,7 @@ void merge_chosen(const std::vector<uint8_t>& chosen, uint8_t choice, bool keeps
     const bool uniform = values.first_of_pixel.empty();
     const uint32_t first = uniform ? uint32_t(pixel) * spp : values.first_of_pixel[pixel];
     const uint32_t last = uniform ? first + spp : values.first_of_pixel[pixel + 1];
-    const bool chose = chosen[pixel] == choice;
+    const bool chose = chose_pixel(pixel);
     for (uint32_t s = first; s < last && (keeps_own || !chose); ++s) origins.push_back({false, s});
     if (chose) {
       const int x = values.rect.x0 + int(pixel) % values.rect.width() - extra.rect.x0;
@@ -196,12 +199,43 @@ void merge_chosen(const std::vector<uint8_t>& chosen, uint8_t choice, bool keeps
 
 void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValues&& extra,
                   SampleValues& values) {
-  merge_chosen(chosen, choice, true, extra, values);
+  merge_where([&](size_t pixel) { return chosen[pixel] == choice; }, true, extra, values);
 }
 
-void replace_chosen(const std::vector<uint8_t>& chosen, uint8_t choice,
-                    SampleValues&& chosen_values, SampleValues& values) {
-  merge_chosen(chosen, choice, false, chosen_values, values);
+std::vector<PixelRect> parts_of(const std::vector<uint8_t>& chosen, const PixelRect& rect,
+                                uint8_t choice) {
+  std::vector<PixelRect> parts;
+  const auto chose = [&](int x, int y) {
+    return chosen[size_t(y - rect.y0) * size_t(rect.width()) + size_t(x - rect.x0)] == choice;
+  };
+  for (int y = rect.y0; y < rect.y1; ++y)
+    for (int x = rect.x0; x < rect.x1;) {
+      if (!chose(x, y)) {
+        ++x;
+        continue;
+      }
+      const int start = x;
+      while (x < rect.x1 && chose(x, y)) ++x;
+      const auto goes_on = [&](const PixelRect& part) {
+        return part.x0 == start && part.x1 == x && part.y1 == y;
+      };
+      const auto above = std::ranges::find_if(parts, goes_on);
+      if (above != parts.end())
+        ++above->y1;
+      else
+        parts.push_back({start, y, x, y + 1});
+    }
+  return parts;
+}
+
+void replace_part(SampleValues&& part, SampleValues& values) {
+  const PixelRect rect = part.rect;
+  const auto is_in_part = [&](size_t pixel) {
+    const int x = values.rect.x0 + int(pixel) % values.rect.width();
+    const int y = values.rect.y0 + int(pixel) / values.rect.width();
+    return x >= rect.x0 && x < rect.x1 && y >= rect.y0 && y < rect.y1;
+  };
+  merge_where(is_in_part, false, part, values);
 }
 
 SampleValues counted_by_pixel(SampleValues&& values) {

@@ -49,9 +49,13 @@ void keep_chosen(const std::vector<uint8_t>& chosen, const PixelRect& rect, uint
 void append_extra(const std::vector<uint8_t>& chosen, uint8_t choice, SampleValues&& extra,
                   SampleValues& values);
 
-/// As append_extra(), but what the pixels had before is dropped.
-void replace_chosen(const std::vector<uint8_t>& chosen, uint8_t choice,
-                    SampleValues&& chosen_values, SampleValues& values);
+/// The pixels of `rect` with that choice as rectangles that do not overlap: rows of them, joined
+/// where they have the same ends.
+std::vector<PixelRect> parts_of(const std::vector<uint8_t>& chosen, const PixelRect& rect,
+                                uint8_t choice);
+
+/// Replaces all samples of the pixels of part.rect, which lies within values.rect.
+void replace_part(SampleValues&& part, SampleValues& values);
 
 /// Says for each pixel how many samples it has, so that others may have more: a sample counts for
 /// as much in all buckets whatever their least number of samples.

@@ -5,6 +5,7 @@
 #include "engine/overrides.h"
 #include "engine/qualities.h"
 #include "engine/round_planner.h"
+#include "engine/timed_frame.h"
 
 namespace tessera {
 
@@ -14,6 +15,7 @@ FrameResult render_frame(const Scene& scene, const Settings& asked, Diagnostics&
   const AccuracyTarget target = accuracy_target(settings);
   const bool several = target.several_passes();
   FramePasses passes(scene, settings, diagnostics, control, several);
+  if (target.even_passes()) return render_within_time(passes, settings, diagnostics);
   if (several) return render_accurate(passes, settings, diagnostics);
   return passes.finish(passes.render());
 }

@@ -143,12 +143,12 @@ int FramePasses::lowest_level() const {
       plan_.hider, plan_.samples_per_pixel));
 }
 
-PassResult FramePasses::render() {
-  const SamplePattern pattern(plan_.samples_per_pixel, settings_.seed, lens(), shutter(),
-                              plan_.sample_tuples, extras());
+PassResult FramePasses::render(int samples, uint32_t seed) {
+  const SamplePattern pattern(samples, seed, lens(), shutter(), hider_->sample_tuples(samples),
+                              extras());
   std::optional<ExtraPatterns> extra;
   if (plan_.extra_samples > 0)
-    extra.emplace(plan_.extra_samples, settings_.seed, lens(), shutter(), extras());
+    extra.emplace(plan_.extra_samples, seed, lens(), shutter(), extras());
   return render({&pattern, extra ? &*extra : nullptr, nullptr, nullptr});
 }
 
@@ -165,7 +165,7 @@ PassResult FramePasses::render(const Samples& samples) {
                               several_ ? 1.0f : scene_.options.exposure_gamma, threads_);
   const auto film = make_reconstruction(reconstruction);
   std::optional<PlainColours> plain;
-  if (several_ && plan_.filters_distribution()) plain.emplace(*film, reconstruction.film);
+  if (samples.allocation && plan_.filters_distribution()) plain.emplace(*film, reconstruction.film);
   if (grids_) {
     const FrameParts parts{camera_,
                            buckets_,
@@ -212,6 +212,12 @@ FrameResult FramePasses::finish(PassResult&& pass, AccuracyStatistics&& accuracy
   add_metadata(result, scene_);
   add_matrices(result, camera_);
   return result;
+}
+
+double write_seconds(const FramePasses& passes) {
+  constexpr double written_bytes_per_s = 4e7;
+  const double pixels = double(passes.crop().pixel_count());
+  return 4 * double(passes.plan().channel_groups.size() + 2) * pixels / written_bytes_per_s;
 }
 
 }  // namespace tessera

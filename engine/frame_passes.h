@@ -41,10 +41,14 @@ class FramePasses {
   bool adaptive() const;
   /// The fewest samples of a pixel, as a power of two: hiders that prescribe them want some.
   int lowest_level() const;
+  /// Where all pixels have as many, their number is a multiple of this.
+  int sample_unit() const { return adaptive() ? 1 : plan_.samples_per_pixel; }
   double elapsed_s() const { return statistics_.elapsed_s(); }
 
   /// One pass with the plan's own number of samples.
-  PassResult render();
+  PassResult render() { return render(plan_.samples_per_pixel, settings_.seed); }
+  /// One pass with `samples` in each pixel, and the extra samples of the plan.
+  PassResult render(int samples, uint32_t seed);
   /// One pass with the samples of `allocation`, which covers sampled(). Passes of different seeds
   /// are independent.
   PassResult render(const SampleAllocation& allocation, uint32_t seed);
@@ -82,5 +86,8 @@ class FramePasses {
   std::unique_ptr<GridSource> grids_;  // null: nothing to see
   std::optional<Heatmap> heatmap_;
 };
+
+/// Seconds that writing the frame may take, at the most that is to be expected.
+double write_seconds(const FramePasses& passes);
 
 }  // namespace tessera

@@ -50,8 +50,8 @@ Settings with_quality(const Settings& settings) {
   if (!settings.quality) return settings;
   const QualityDefinition& quality = find_quality(*settings.quality);
   Settings result = settings;
-  const bool counted =
-      settings.samples_per_pixel || settings.error || settings.time_s || !settings.rounds.empty();
+  const bool counted = settings.samples_per_pixel || settings.error || settings.time_s ||
+                       !settings.rounds.empty() || !settings.passes.empty();
   if (!counted) {
     result.samples_per_pixel = quality.samples_per_pixel;
     result.error = quality.error;

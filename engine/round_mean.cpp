@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/image_mean.h"
+
 namespace tessera {
 namespace {
 
@@ -66,8 +68,8 @@ void RoundMean::add(RoundImages&& round, const SampleAllocation& allocation) {
     newest.plain_differences = combined(0.5, *round.plain_a, -0.5, *round.plain_b);
   }
   newest.image = std::move(round.a);
-  take_closest(newest.image, round.b);
-  average(newest.image, round.b, 0.5);
+  take_closest(groups_, round.b, newest.image);
+  average(groups_, round.b, 0.5, newest.image);
   count(allocation, newest.image.data_window);
   update_noise(newest, allocation);
   if (rounds_++ == 0)
@@ -79,13 +81,13 @@ void RoundMean::add(RoundImages&& round, const SampleAllocation& allocation) {
 
 /// Where there is bias, a round of more samples may be better alone than with those before it.
 void RoundMean::add(Estimate&& newest, double samples) {
-  take_closest(newest.image, best_.image);
-  take_closest(best_.image, newest.image);
+  take_closest(groups_, best_.image, newest.image);
+  take_closest(groups_, newest.image, best_.image);
   const double old_variance = relative_mean(
       newest.image, [&](size_t k, double) { return best_.differences[k] * best_.differences[k]; });
   const double both = old_variance + newest.variance();
   const double share = both > 0 ? old_variance / both : samples / mean_samples();
-  average(best_.image, newest.image, share);
+  average(groups_, newest.image, share, best_.image);
   mix(best_.differences, newest.differences, share);
   mix(best_.plain, newest.plain, share);
   mix(best_.plain_differences, newest.plain_differences, share);
@@ -104,34 +106,6 @@ PixelNoise RoundMean::noise() const {
   if (variance_ > 0)
     for (double& variance : scaled.variance) variance *= error_squared_ / variance_;
   return scaled;
-}
-
-/// Where `from` saw something nearer, its channels that must not be averaged.
-void RoundMean::take_closest(Image& to, const Image& from) const {
-  const Image::Channel *z_to = to.find_channel("Z"), *z_from = from.find_channel("Z");
-  if (!z_to || !z_from) return;
-  std::vector<size_t> nearer;
-  for (size_t p = 0; p < z_to->values.size(); ++p)
-    if (z_from->values[p] < z_to->values[p]) nearer.push_back(p);
-  size_t channel = 0;
-  for (const AovDefinition* group : groups_)
-    for (size_t c = 0; c < group->channels.size(); ++c, ++channel)
-      if (group->filter == ChannelFilter::closest)
-        for (const size_t p : nearer)
-          to.channels[channel].values[p] = from.channels[channel].values[p];
-}
-
-/// `share` of `from` and the rest of `to`.
-void RoundMean::average(Image& to, const Image& from, double share) const {
-  size_t channel = 0;
-  for (const AovDefinition* group : groups_)
-    for (size_t c = 0; c < group->channels.size(); ++c, ++channel) {
-      if (group->filter != ChannelFilter::filtered) continue;
-      std::vector<float>& values = to.channels[channel].values;
-      const std::vector<float>& other = from.channels[channel].values;
-      for (size_t p = 0; p < values.size(); ++p)
-        values[p] = float((1 - share) * double(values[p]) + share * double(other[p]));
-    }
 }
 
 void RoundMean::count(const SampleAllocation& allocation, const PixelRect& rect) {

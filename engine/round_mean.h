@@ -76,8 +76,6 @@ class RoundMean {
   };
 
   void add(Estimate&& newest, double samples);
-  void take_closest(Image& to, const Image& from) const;
-  void average(Image& to, const Image& from, double share) const;
   void count(const SampleAllocation& allocation, const PixelRect& rect);
   void update_noise(const Estimate& newest, const SampleAllocation& allocation);
 

@@ -63,6 +63,11 @@ AccuracyTarget accuracy_target(const Settings& settings) {
   target.rounds = settings.rounds;
   if (!target.rounds.empty() && (target.error || target.time_s || settings.samples_per_pixel))
     throw Error("rounds repeat a frame; expected no error, time or samples per pixel besides");
+  target.passes = settings.passes;
+  if (!target.passes.empty() &&
+      (target.error || target.time_s || !target.rounds.empty() || settings.samples_per_pixel))
+    throw Error("passes repeat a frame; expected no error, time, rounds or samples per pixel too");
+  for (const int samples : target.passes) check_above_0("samples of a pass", samples, 65536);
   for (const double samples : target.rounds) check_above_0("samples of a round", samples, 65536);
   if (target.error) check_above_0("error", *target.error, 1e6);
   if (target.time_s) check_above_0("time in seconds", *target.time_s, max_time_s);

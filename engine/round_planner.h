@@ -15,8 +15,11 @@ struct AccuracyTarget {
   std::optional<double> time_s;  ///< for the whole frame
   double max_samples = 1024;     ///< mean samples a pixel
   std::vector<double> rounds;    ///< as Settings::rounds; excludes the others
+  std::vector<int> passes;       ///< as Settings::passes; excludes the others
 
-  bool several_passes() const { return error || time_s || !rounds.empty(); }
+  /// Passes of even samples, and as many as a time takes.
+  bool even_passes() const { return (time_s && !error) || !passes.empty(); }
+  bool several_passes() const { return error || !rounds.empty() || even_passes(); }
 };
 
 /// What the settings ask for. Throws Error when it makes no sense.

@@ -25,41 +25,62 @@ void smooth_line(const double* from, double* to, int count, size_t step) {
   }
 }
 
-/// Roots of the variance over a rectangle, as multiples of their mean, and the levels that go with
-/// them.
+int tile_of(int pixel) { return pixel >> SampleAllocation::tile_bits; }
+
+/// Roots of the mean variance in the tiles that meet a rectangle, as multiples of their mean over
+/// its pixels, and the levels that go with them.
 class Roots {
  public:
-  Roots(const PixelNoise& noise, const PixelRect& rect) : rect_(rect) {
-    const PixelRect& known = noise.rect;
-    for (int y = rect.y0; y < rect.y1; ++y) {
-      const int near_y = std::clamp(y, known.y0, known.y1 - 1);
-      for (int x = rect.x0; x < rect.x1; ++x) {
-        const int near_x = std::clamp(x, known.x0, known.x1 - 1);
-        const size_t at =
-            size_t(near_y - known.y0) * size_t(known.width()) + size_t(near_x - known.x0);
-        roots_.push_back(std::sqrt(std::max(noise.variance[at], 0.0)));
-      }
-    }
+  Roots(const PixelNoise& noise, const PixelRect& rect)
+      : rect_(rect), tiles_(rect.empty() ? PixelRect{} : tiles_that_meet(rect)) {
+    const size_t count = size_t(tiles_.pixel_count());
+    std::vector<double> variance(count, 0.0), pixels(count, 0.0);
+    for_pixels([&](int x, int y, size_t tile) {
+      variance[tile] += nearest(noise, x, y), pixels[tile] += 1;
+    });
     double mean = 0;
-    for (const double root : roots_) mean += root / double(roots_.size());
+    for (size_t tile = 0; tile < count; ++tile) {
+      roots_.push_back(std::sqrt(std::max(variance[tile] / pixels[tile], 0.0)));
+      mean += roots_[tile] * pixels[tile] / double(rect.pixel_count());
+    }
     if (mean > 0)
       for (double& root : roots_) root = std::max(root / mean, least_share);
   }
 
   /// 2^log2_scale samples for the mean root.
   SampleAllocation at(double log2_scale, const AllocationLimits& limits) const {
-    SampleAllocation result{rect_, {}};
-    result.level.reserve(roots_.size());
+    std::vector<uint8_t> levels;
     for (const double root : roots_) {
       const double wanted = root > 0 ? std::round(std::log2(root) + log2_scale) : 0.0;
-      result.level.push_back(uint8_t(std::clamp(wanted, double(limits.lowest_level),
-                                                double(SampleAllocation::highest_level))));
+      levels.push_back(uint8_t(std::clamp(wanted, double(limits.lowest_level),
+                                          double(SampleAllocation::highest_level))));
     }
+    SampleAllocation result{rect_, {}};
+    result.level.reserve(size_t(rect_.pixel_count()));
+    for_pixels([&](int, int, size_t tile) { result.level.push_back(levels[tile]); });
     return result;
   }
 
  private:
-  PixelRect rect_;
+  static PixelRect tiles_that_meet(const PixelRect& rect) {
+    return {tile_of(rect.x0), tile_of(rect.y0), tile_of(rect.x1 - 1) + 1, tile_of(rect.y1 - 1) + 1};
+  }
+  static double nearest(const PixelNoise& noise, int x, int y) {
+    const PixelRect& known = noise.rect;
+    const int near_x = std::clamp(x, known.x0, known.x1 - 1) - known.x0;
+    const int near_y = std::clamp(y, known.y0, known.y1 - 1) - known.y0;
+    return noise.variance[size_t(near_y) * size_t(known.width()) + size_t(near_x)];
+  }
+  /// Calls use(x, y, place of its tile) for every pixel, row by row.
+  template <class Use>
+  void for_pixels(const Use& use) const {
+    for (int y = rect_.y0; y < rect_.y1; ++y) {
+      const size_t row = size_t(tile_of(y) - tiles_.y0) * size_t(tiles_.width());
+      for (int x = rect_.x0; x < rect_.x1; ++x) use(x, y, row + size_t(tile_of(x) - tiles_.x0));
+    }
+  }
+
+  PixelRect rect_, tiles_;
   std::vector<double> roots_;
 };
 

@@ -11,9 +11,12 @@
 
 namespace tessera {
 
-/// 2^level samples for each pixel of `rect`.
+/// 2^level samples for each pixel of `rect`. Tiles of the frame are allocated as a whole: what sees
+/// a rectangle of equal samples costs as much as in an even frame, while single pixels would have
+/// hiders test the samples of all others around.
 struct SampleAllocation {
   static constexpr int highest_level = 14;
+  static constexpr int tile_bits = 4;  ///< tiles are 16 pixels wide and start at pixel (0, 0)
 
   PixelRect rect;
   std::vector<uint8_t> level;  ///< row-major
@@ -58,9 +61,9 @@ double expected_error_squared(const PixelNoise& noise, const SampleAllocation& a
 
 /// The fewest samples that bring expected_error_squared() down to `error_squared`, or, where the
 /// limits do not let it come down as far, as many as they let. Of all allocations with one mean,
-/// samples proportional to the root of the variance have the least expected error (Lagrange); they
-/// are rounded to powers of two. No pixel gets less than an eighth of what it would with the mean
-/// root: that two images agree by chance is no proof that there is nothing to see.
+/// samples proportional to the root of a tile's mean variance have the least expected error
+/// (Lagrange); they are rounded to powers of two. No tile gets less than an eighth of what it would
+/// with the mean root: that two images agree by chance is no proof that there is nothing to see.
 /// Pixels of `rect` outside noise.rect go by the nearest within.
 SampleAllocation allocate(const PixelNoise& noise, const PixelRect& rect, double error_squared,
                           const AllocationLimits& limits);

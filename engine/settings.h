@@ -20,8 +20,9 @@ struct Settings {
   std::optional<int> max_samples;  ///< only with `error` or `time_s`; unset: 1024
   std::optional<double> time_s;    ///< as many samples as fit into a frame of so many seconds
   /// Samples a pixel of the passes of each round, the mean over pixels: repeats a frame that was
-  /// rendered to an error or within a time. Empty: they are found.
+  /// rendered to an error. Empty: they are found.
   std::vector<double> rounds;
+  std::vector<int> passes;  ///< samples a pixel: repeats a frame that was rendered within a time
   std::optional<float> shading_rate;  ///< pixels^2; replaces every surface's own
   std::optional<float> dicing_rate;   ///< pixels^2; of micropolygons, whatever ShadingRate
   std::optional<float> motion_factor, focus_factor;  ///< replace GeometricApproximation's

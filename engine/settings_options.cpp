@@ -115,6 +115,19 @@ std::vector<double> round_list(const std::string& list) {
   return rounds;
 }
 
+std::vector<int> pass_list(const std::string& list) {
+  std::vector<int> passes;
+  for (const std::string& item : split_list(list)) {
+    int samples = 0;
+    if (!CLI::detail::lexical_cast(item, samples) || samples < 1 || samples > max_samples_per_pixel)
+      throw CLI::ValidationError(
+          "--passes", fmt::format("'{}': expected whole numbers from 1 to {}, separated by commas",
+                                  list, max_samples_per_pixel));
+    passes.push_back(samples);
+  }
+  return passes;
+}
+
 /// How many samples: so many, or as many as something takes.
 void add_sample_options(CLI::App& app, Settings& settings) {
   CLI::Option* quality = app.add_option("--quality", settings.quality,
@@ -134,19 +147,28 @@ void add_sample_options(CLI::App& app, Settings& settings) {
           ->type_name("E");
   CLI::Option* time =
       app.add_option("--time", settings.time_s,
-                     "as many samples as fit into a frame of so many seconds, placed as with "
-                     "--error; the image depends on how fast the machine was. With both, the first "
-                     "to be reached counts")
+                     "as many samples as fit into a frame of so many seconds; the image depends on "
+                     "how fast the machine was. With --error, the first to be reached counts")
           ->check(number_above_0(max_time_s))
           ->excludes(samples)
           ->type_name("SECONDS");
+  CLI::Option* rounds =
+      app.add_option_function<std::string>(
+             "--rounds",
+             [&settings](const std::string& list) { settings.rounds = round_list(list); },
+             "repeat a frame of --error: the statistics' \"repeat\", samples per pixel of each of "
+             "the passes of a round")
+          ->excludes(samples)
+          ->excludes(error)
+          ->excludes(time)
+          ->type_name("N,N,...");
   app.add_option_function<std::string>(
-         "--rounds", [&settings](const std::string& list) { settings.rounds = round_list(list); },
-         "repeat a frame of --error or --time: the statistics' \"repeat\", samples per pixel of "
-         "each of the passes of a round")
+         "--passes", [&settings](const std::string& list) { settings.passes = pass_list(list); },
+         "repeat a frame of --time: the statistics' \"repeat\", samples per pixel of each pass")
       ->excludes(samples)
       ->excludes(error)
       ->excludes(time)
+      ->excludes(rounds)
       ->type_name("N,N,...");
   app.add_option_function<int>(
          "--max-spp",

@@ -82,7 +82,7 @@ TEST_CASE("the error that is estimated is the error that there is") {
 TEST_CASE("samples go where the noise is") {
   const FrameResult frame = render_text_frame(moving_ball(), to_error(0.01));
   CHECK(number(frame, "spp_min") < 0.5 * number(frame, "spp_mean"));
-  CHECK(number(frame, "spp_max") > 2 * number(frame, "spp_mean"));
+  CHECK(number(frame, "spp_max") > 1.5 * number(frame, "spp_mean"));
   Settings even;
   even.samples_per_pixel = int(number(frame, "spp_mean") + 1);
   Settings many;
@@ -202,6 +202,10 @@ TEST_CASE("the program tells what was reached, and refuses targets that make no 
                                              {"--error", "0.1", "--spp", "16"},
                                              {"--time", "1", "--spp", "16"},
                                              {"--rounds", "4,0"},
+                                             {"--passes", "4,0"},
+                                             {"--passes", "4,1.5"},
+                                             {"--passes", "4", "--spp", "4"},
+                                             {"--passes", "4", "--rounds", "4"},
                                              {"--rounds", "4", "--error", "0.1"}}) {
     std::vector<std::string> arguments{"render", "s.rib", "-o", "o.exr"};
     arguments.insert(arguments.end(), bad.begin(), bad.end());
