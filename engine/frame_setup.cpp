@@ -1,47 +1,16 @@
 #include "engine/frame_setup.h"
 
-#include <cmath>
 #include <filesystem>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "engine/sample_spreads.h"
 #include "images/image_module.h"
 #include "reconstruct/pixel_filter.h"
 
 namespace tessera {
-namespace {
-
-/// sqrt(3) times the root mean square of `distance_of(k)` over k < `count`.
-template <class DistanceOf>
-float spread(int count, const DistanceOf& distance_of) {
-  double squares = 0;
-  for (int k = 0; k < count; ++k) {
-    const double distance = distance_of(k);
-    squares += distance * distance;
-  }
-  return float(std::sqrt(3 * squares / count));
-}
-
-/// SampleSpreads::lens, by midpoints of 64 x 64 strata.
-float lens_spread(const LensProfile& lens) {
-  constexpr int side = 64;
-  return spread(side * side, [&](int k) {
-    const glm::vec2 at =
-        lens.sample((float(k % side) + 0.5f) / side, (float(k / side) + 0.5f) / side);
-    return std::sqrt(0.5 * double(glm::dot(at, at)));
-  });
-}
-
-/// SampleSpreads::time, by midpoints of 1024 strata.
-float time_spread(const ShutterProfile& shutter) {
-  constexpr int strata = 1024;
-  return spread(strata,
-                [&](int k) { return double(shutter.sample((float(k) + 0.5f) / strata)) - 0.5; });
-}
-
-}  // namespace
 
 ShadeSetup shade_setup(const Scene& scene, const Camera& camera, const Settings& settings,
                        Diagnostics& diagnostics) {
