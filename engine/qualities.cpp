@@ -9,18 +9,18 @@
 namespace tessera {
 namespace {
 
+// Why these: docs/trade.md, Qualities.
 // clang-format off
 constexpr QualityDefinition definitions[] = {
-    {.name = "draft", .help = "what is where: a few samples, coarse shading",
+    {.name = "draft", .help = "4 samples a pixel, large micropolygons",
      .samples_per_pixel = 4, .error = {}, .max_samples = {},
-     .shading_rate = 4.0f, .dicing_rate = 4.0f, .extra_samples = 0,
-     .texture_filter = "trilinear"},
-    {.name = "preview", .help = "an error of 0.03",
-     .samples_per_pixel = {}, .error = 0.03, .max_samples = 64,
+     .shading_rate = {}, .dicing_rate = 4.0f, .extra_samples = 0},
+    {.name = "preview", .help = "16 samples a pixel",
+     .samples_per_pixel = 16, .error = {}, .max_samples = {},
      .shading_rate = {}, .dicing_rate = {}, .extra_samples = {}},
-    {.name = "final", .help = "an error of 0.01",
+    {.name = "final", .help = "an error of 0.01, shading cells of a quarter of a pixel",
      .samples_per_pixel = {}, .error = 0.01, .max_samples = 1024,
-     .shading_rate = {}, .dicing_rate = {}, .extra_samples = {}},
+     .shading_rate = 0.25f, .dicing_rate = {}, .extra_samples = {}},
 };
 // clang-format on
 

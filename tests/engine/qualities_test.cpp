@@ -65,7 +65,7 @@ TEST_CASE("the program prints the quality and takes its options") {
       run_tessera({"render", "s.rib", "-o", "o.exr", "--quality", "draft", "--verbose"}, folder);
   CHECK(draft.exit_code == 0);
   CHECK_THAT(draft.out, Contains("quality                      draft"));
-  CHECK_THAT(draft.out, Contains("shading_rate                 4"));
+  CHECK_THAT(draft.out, Contains("dicing_rate                  4"));
   const ProgramResult limited = run_tessera(
       {"render", "s.rib", "-o", "o.exr", "--quality", "final", "--max-spp", "16", "--verbose"},
       folder);
