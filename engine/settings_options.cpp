@@ -201,7 +201,7 @@ void add_rate_options(CLI::App& app, Settings& settings) {
       "how fast micropolygons grow with circles of confusion beyond 16 pixels / F, 0: never",
       factor, "F");
   add("--ray-dicing-rate", settings.ray_dicing_rate,
-      "area of the micropolygons that rays meet in pixels^2, for every surface (16 times that of "
+      "area of the micropolygons that rays meet in pixels^2, for every surface (4 times that of "
       "those that are seen)",
       area, "R");
 }

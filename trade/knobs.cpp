@@ -22,6 +22,10 @@ std::string idle_without_distribution(const ScenePlan& plan) {
   return "no lens, motion, light with extent or bounce spreads the samples";
 }
 
+std::string idle_without_rays(const ScenePlan& plan) {
+  return plan.has("ray_tracing") ? "" : "no light casts rays";
+}
+
 std::string idle_without_aas(const ScenePlan& plan) {
   const std::string shading = plan.text("shading");
   if (shading.starts_with("aas")) return "";
@@ -49,6 +53,13 @@ std::span<const Knob> knob_table() {
        .default_value = "the scene's shading rate",
        .values = {"0.25", "4", "16"},
        .numeric = true},
+      {.name = "ray-dicing-rate",
+       .option = "--ray-dicing-rate",
+       .what = "area of a micropolygon that rays meet in pixels^2",
+       .default_value = "4 times the surface's own",
+       .values = {"1", "16", "64"},
+       .numeric = true,
+       .idle = idle_without_rays},
       {.name = "hider",
        .option = "--hider",
        .what = "how visibility is found",

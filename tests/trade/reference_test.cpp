@@ -75,7 +75,8 @@ TEST_CASE("a given reference has to be of the scene") {
 
 TEST_CASE("what every run is given anyway is not given to the reference twice") {
   const auto options = reference_options({"--shading", "ds"});
-  CHECK(options == std::vector<std::string>{"--reconstruct", "filter", "--dicing-rate", "0.25"});
+  CHECK(options == std::vector<std::string>{"--reconstruct", "filter", "--dicing-rate", "0.25",
+                                            "--ray-dicing-rate", "1"});
 }
 
 TEST_CASE("processes are measured, and how they end is told") {
