@@ -8,21 +8,15 @@
 
 #include "base/error.h"
 #include "bench/harness/benchmark.h"
+#include "bench/read_scene.h"
 #include "engine/frame.h"
 #include "images/image_module.h"
-#include "scenes/rib/rib_reader.h"
 
 namespace tessera {
 
 /// The last frame of a file; an empty name: a frame that holds nothing.
 inline std::unique_ptr<const Scene> read_scene_to_measure(const std::string& file) {
-  struct LastFrame : SceneSink {
-    bool frame(std::unique_ptr<const Scene> read) override {
-      scene = std::move(read);
-      return true;
-    }
-    std::unique_ptr<const Scene> scene;
-  } sink;
+  LastFrame sink;
   Diagnostics diagnostics;
   if (file.empty())
     read_rib_text("Format 960 540 1\nPixelSamples 4 4\nWorldBegin\nWorldEnd\n", "empty", sink,

@@ -9,17 +9,20 @@
 
 namespace tessera {
 
+/// Keeps the last frame that is read.
+struct LastFrame : SceneSink {
+  bool frame(std::unique_ptr<const Scene> read) override {
+    scene = std::move(read);
+    return true;
+  }
+  std::unique_ptr<const Scene> scene;
+};
+
 /// The last frame of `text`. Throws Error, with `name` as the file, if there is none, and on
 /// anything that the reader warns of: generated scenes are to be as they are written.
 inline std::unique_ptr<const Scene> read_generated_scene(const std::string& text,
                                                          const std::string& name) {
-  struct OneScene : SceneSink {
-    bool frame(std::unique_ptr<const Scene> read) override {
-      scene = std::move(read);
-      return true;
-    }
-    std::unique_ptr<const Scene> scene;
-  } sink;
+  LastFrame sink;
   Diagnostics diagnostics;
   read_rib_text(text, name, sink, diagnostics);
   if (!sink.scene) throw Error(fmt::format("scene {} holds no frame", name));

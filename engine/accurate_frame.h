@@ -1,6 +1,7 @@
 #pragma once
-/// Frames to an error, or within a time: rounds of two passes each, the first with as many samples
-/// in all pixels, the others with many where there is much noise (docs/quality.md).
+/// Frames to an error, or to that or a time, whichever comes first: rounds of two passes each, the
+/// first with as many samples in all pixels, the others with many where there is much noise
+/// (docs/quality.md).
 
 #include "engine/frame_passes.h"
 

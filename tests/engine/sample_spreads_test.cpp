@@ -1,5 +1,6 @@
 // Spreads of lens and shutter against closed forms and against integrals of the response.
 
+#include <algorithm>
 #include <cmath>
 
 #include <catch2/catch.hpp>
