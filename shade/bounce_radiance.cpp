@@ -5,6 +5,7 @@
 #include "shade/bindings.h"
 #include "shade/fragment_geometry.h"
 #include "shade/grid_points.h"
+#include "shade/thinned_grid.h"
 
 namespace tessera {
 namespace {
@@ -21,6 +22,11 @@ std::vector<BoundLight> direct_lights(const SurfaceBinding& surface) {
   }
   return lights;
 }
+
+/// Rows and columns of micropolygons from one shaded vertex to the next. What rays meet is diced
+/// for its outline, which shadows need; what it sends out is averaged over the rays of a
+/// hemisphere.
+constexpr int shaded_step = 2;
 
 /// Where grids meet in a corner of a room, a vertex of one lies on the other, and that would shadow
 /// it. So vertices on the rim are shaded this share of a micropolygon further inside.
@@ -98,8 +104,10 @@ const std::vector<glm::vec3>& BounceRadiance::vertices_of(uint32_t grid, Side si
   return vertices.radiance[size_t(side)];
 }
 
-std::vector<glm::vec3> BounceRadiance::shade(const Grid& grid, Side side,
+std::vector<glm::vec3> BounceRadiance::shade(const Grid& whole, Side side,
                                              ShadeCounters& counters) const {
+  const ThinnedGrid thinned(whole, shaded_step);
+  const Grid& grid = thinned.grid();
   const SurfaceBinding& surface = bindings_.of(grid.attributes());
   const GridPoints batch(grid, bindings_.camera(), Footprints::over_micropolygons);
   ShadingPoints points = batch.points();
@@ -140,7 +148,7 @@ std::vector<glm::vec3> BounceRadiance::shade(const Grid& grid, Side side,
                     "dropped",
                     definition.name));
   }
-  return radiance;
+  return thinned.spread(radiance);
 }
 
 size_t BounceRadiance::memory_bytes() const {

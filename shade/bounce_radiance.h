@@ -1,7 +1,7 @@
 #pragma once
 /// What rays find on the surfaces they meet: the light that a surface sends out alike in all
-/// directions, lit by everything but light that bounced before. Kept at the vertices of the grids
-/// that rays are traced against, apart for their two sides.
+/// directions, lit by everything but light that bounced before. Shaded at every second vertex of the
+/// grids that rays are traced against, along u and v, apart for their two sides.
 
 #include <array>
 #include <memory>
@@ -15,7 +15,7 @@ namespace tessera {
 class ShaderBindings;
 struct ShadeCounters;
 
-/// Each side of a grid is shaded once, all its vertices in one batch as they are at shutter open (a
+/// Each side of a grid is shaded once, all in one batch, as its vertices are at shutter open (a
 /// little inside where they lie on the rim of the grid), by whichever ray first meets it; what
 /// comes out does not depend on which that was. Shadows are looked up at the vertices, distributed
 /// lights summed over their fixed places, and surfaces that shine do not show it: area lights are

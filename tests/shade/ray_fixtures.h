@@ -149,4 +149,15 @@ struct LightPoints {
   }
 };
 
+/// A wall in the plane x = 0, `half_width` to both sides in y and from z = 0 to z = -height, and
+/// the surface it belongs to. Its normal is +x.
+inline std::shared_ptr<Grid> make_wall(const Surface& surface, int n, float half_width,
+                                       float height) {
+  auto grid = make_grid(surface, n, n, [=](float u, float v) {
+    return glm::vec3(0.0f, (2.0f * u - 1.0f) * half_width, -height * v);
+  });
+  set_normals(*grid, [](float, float) { return glm::vec3(1.0f, 0.0f, 0.0f); });
+  return grid;
+}
+
 }  // namespace tessera::test
