@@ -106,7 +106,8 @@ FramePasses::FramePasses(const Scene& scene, const Settings& settings, Diagnosti
       buckets_(bucket_layout(plan_, camera_)),
       threads_(thread_count(settings)),
       groups_(channel_groups(plan_)),
-      hider_(make_hider(plan_.hider)) {
+      hider_(make_hider(plan_.hider)),
+      reconstruction_method_(make_reconstruction_method(plan_.reconstruct)) {
   const ShadingFrame shaded = shading_frame(plan_, bindings_);
   shading_ = control.make_shading ? control.make_shading(plan_.shading, shaded)
                                   : make_shading(plan_.shading, shaded);
@@ -160,9 +161,10 @@ PassResult FramePasses::render(const SampleAllocation& allocation, uint32_t seed
 
 PassResult FramePasses::render(const Samples& samples) {
   PassResult result;
-  const ReconstructionSettings reconstruction =
+  ReconstructionSettings reconstruction =
       reconstruction_settings(plan_, buckets_, camera_, groups_, scene_.options.exposure_gain,
                               several_ ? 1.0f : scene_.options.exposure_gamma, threads_);
+  reconstruction.method = reconstruction_method_;
   const auto film = make_reconstruction(reconstruction);
   std::optional<PlainColours> plain;
   if (samples.allocation && plan_.filters_distribution()) plain.emplace(*film, reconstruction.film);

@@ -81,6 +81,7 @@ class FramePasses {
   const int threads_;
   std::vector<const AovDefinition*> groups_;
   std::unique_ptr<Hider> hider_;
+  std::shared_ptr<const ReconstructionMethod> reconstruction_method_;
   std::unique_ptr<Shading> shading_;
   std::unique_ptr<Displacer> displacer_;
   std::unique_ptr<GridSource> grids_;  // null: nothing to see

@@ -89,7 +89,6 @@ ReconstructionSettings reconstruction_settings(const FramePlan& plan, const Buck
                                                float exposure_gain, float exposure_gamma,
                                                int threads) {
   ReconstructionSettings settings;
-  settings.method = plan.reconstruct;
   settings.features = plan.distribution();
   settings.threads = threads;
   if (plan.lens) settings.spreads.lens = lens_spread(camera.lens_profile());

@@ -33,7 +33,7 @@ std::shared_ptr<const RayTracer> ray_tracer(const FramePlan& plan, const Scene& 
 
 BucketLayout bucket_layout(const FramePlan& plan, const Camera& camera);
 
-/// `exposure_gamma` as FilmSettings' own: 1 where pixels are wanted linear.
+/// All but the method. `exposure_gamma` as FilmSettings' own: 1 where pixels are wanted linear.
 ReconstructionSettings reconstruction_settings(const FramePlan& plan, const BucketLayout& buckets,
                                                const Camera& camera,
                                                const std::vector<const AovDefinition*>& groups,

@@ -4,13 +4,12 @@
 
 namespace tessera {
 
-std::unique_ptr<Reconstruction> make_reconstruction(const ReconstructionSettings& settings) {
-  return make_reconstruction(settings,
-                             make_method(settings.method, reconstruction_method_registry()));
+std::shared_ptr<const ReconstructionMethod> make_reconstruction_method(std::string_view spec) {
+  return make_method(spec, reconstruction_method_registry());
 }
 
 int reconstruction_reach(std::string_view spec) {
-  const auto method = make_method(spec, reconstruction_method_registry());
+  const auto method = make_reconstruction_method(spec);
   return method ? reconstruction_reach(*method) : 0;
 }
 

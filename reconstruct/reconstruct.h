@@ -90,6 +90,8 @@ class Film {
   std::unique_ptr<Blocks> blocks_;
 };
 
+class ReconstructionMethod;
+
 /// Which distribution effects a frame has.
 struct DistributionFeatures {
   bool lens = false, motion = false;  ///< as in HideFeatures
@@ -104,9 +106,7 @@ struct SampleSpreads {
 
 struct ReconstructionSettings {
   FilmSettings film;
-  /// "filter" (the pixel filter alone), or a method of reconstruct/method.h as "name" or
-  /// "name:arguments".
-  std::string method = "filter";
+  std::shared_ptr<const ReconstructionMethod> method;  ///< null: the pixel filter alone
   DistributionFeatures features;
   int threads = 1;
   size_t memory_bytes = size_t(8) << 30;  ///< for the moments of the whole frame
@@ -132,10 +132,16 @@ class Reconstruction {
   virtual double filter_s() const { return 0; }  ///< seconds that finish() spent filtering
 };
 
-/// Throws Error for an unknown method, bad arguments, or more moments than the memory allows.
+/// The method that "name" or "name:arguments" asks for (reconstruct/method.h); null for "filter",
+/// the pixel filter alone. It keeps what it has computed for all that use it. Throws Error for an
+/// unknown method, listing the choices, or bad arguments.
+std::shared_ptr<const ReconstructionMethod> make_reconstruction_method(std::string_view spec);
+
+/// Throws Error for more moments than the memory allows.
 std::unique_ptr<Reconstruction> make_reconstruction(const ReconstructionSettings& settings);
 
-/// Pixels around a crop that the method needs besides the pixel filter's. Throws Error as above.
+/// Pixels around a crop that the method needs besides the pixel filter's. Throws Error as
+/// make_reconstruction_method().
 int reconstruction_reach(std::string_view method);
 
 }  // namespace tessera

@@ -49,11 +49,9 @@ std::array<float, NoiseCorrelation::reach + 1> autocorrelation(const FilmSetting
 /// A film that sums moments, and the filters that run over them in the end.
 class FilteredReconstruction final : public Reconstruction {
  public:
-  FilteredReconstruction(const ReconstructionSettings& settings,
-                         std::unique_ptr<ReconstructionMethod> method)
+  explicit FilteredReconstruction(const ReconstructionSettings& settings)
       : settings_(settings),
-        method_(std::move(method)),
-        layout_(settings.features, *method_),
+        layout_(settings.features, *settings.method),
         color_group_(size_t(find_group(settings.film.groups, "rgb"))),
         facts_(sampled(), settings.features),
         film_(film_settings()) {}
@@ -85,14 +83,13 @@ class FilteredReconstruction final : public Reconstruction {
   }
   /// The pixels whose moments the crop needs, as far as samples reach.
   PixelRect filtered_rect() const {
-    return settings_.film.crop.grown(reconstruction_reach(*method_)).intersect(sampled());
+    return settings_.film.crop.grown(reconstruction_reach(*settings_.method)).intersect(sampled());
   }
   FilmSettings film_settings() const;
   void finish_image(const Image& all, Image& image);
   void write_colors(const FilteredColors& colors, const Image& all, Image& image) const;
 
   ReconstructionSettings settings_;
-  std::unique_ptr<ReconstructionMethod> method_;
   MomentLayout layout_;
   size_t color_group_;
   PixelFacts facts_;
@@ -115,7 +112,7 @@ void FilteredReconstruction::finish_image(const Image& all, Image& image) {
   for (std::vector<float>& plane : planes) plane.resize(plane.size() + tap_run);
   const PixelFacts facts = smoothed(facts_, all.data_window);
   bound_samples_ = mean_bound_samples(facts, settings_.film.crop);
-  EffectFilterInput input{&layout_, method_.get(), &facts, &planes, {}, 1};
+  EffectFilterInput input{&layout_, settings_.method.get(), &facts, &planes, {}, 1};
   const FilmSettings& film = settings_.film;
   input.correlation = {autocorrelation(film, film.filter_x_width),
                        autocorrelation(film, film.filter_y_width)};
@@ -185,11 +182,10 @@ int reconstruction_reach(const ReconstructionMethod& method) {
   return method.reach() + effect_filter_margin();
 }
 
-std::unique_ptr<Reconstruction> make_reconstruction(const ReconstructionSettings& settings,
-                                                    std::unique_ptr<ReconstructionMethod> method) {
-  if (!method || !settings.features.any() || find_group(settings.film.groups, "rgb") < 0)
+std::unique_ptr<Reconstruction> make_reconstruction(const ReconstructionSettings& settings) {
+  if (!settings.method || !settings.features.any() || find_group(settings.film.groups, "rgb") < 0)
     return std::make_unique<FilmReconstruction>(settings.film);
-  return std::make_unique<FilteredReconstruction>(settings, std::move(method));
+  return std::make_unique<FilteredReconstruction>(settings);
 }
 
 }  // namespace tessera

@@ -1,5 +1,5 @@
 #pragma once
-/// The stage with a given method, for methods that no registry lists.
+/// What the stage says of a given method and of a given list of them.
 
 #include <memory>
 #include <span>
@@ -9,10 +9,6 @@
 #include "reconstruct/reconstruct.h"
 
 namespace tessera {
-
-/// As make_reconstruction() with `method` in place of settings.method; null: the film alone.
-std::unique_ptr<Reconstruction> make_reconstruction(const ReconstructionSettings& settings,
-                                                    std::unique_ptr<ReconstructionMethod> method);
 
 /// As reconstruction_reach(std::string_view).
 int reconstruction_reach(const ReconstructionMethod& method);

@@ -72,22 +72,31 @@ class PooledSamples {
 }  // namespace
 
 WienerTable::WienerTable(int components, int image_axes)
-    : components_(components), size_(size_t(components * (2 * reach + 1))) {
-  filters_.reserve(size_t(shift_count * ratio_count * samples_count) * size_);
-  for (int i = 0; i < shift_count; ++i)
-    for (double ratio : ratios) add_wedge(ratio * shift_at(i), shift_at(i), image_axes);
+    : components_(components),
+      image_axes_(image_axes),
+      size_(size_t(components * (2 * reach + 1))) {}
+
+const WienerTable::Filters& WienerTable::filters(int shift, int ratio) const {
+  Filters& wanted = grid_[size_t(shift * ratio_count + ratio)];
+  std::call_once(wanted.solved, [&] {
+    wanted.values = solve(ratios[size_t(ratio)] * shift_at(shift), shift_at(shift));
+  });
+  return wanted;
 }
 
-void WienerTable::add_wedge(double low, double high, int image_axes) {
+std::vector<float> WienerTable::solve(double low, double high) const {
   const PairStatistics pairs(low, high, components_, reach);
   const WienerSolver solver(pairs);
   std::optional<PooledSamples> pooled;
-  if (image_axes == 2) pooled.emplace(solver);
+  if (image_axes_ == 2) pooled.emplace(solver);
+  std::vector<float> filters;
+  filters.reserve(size_t(samples_count) * size_);
   for (int k = 0; k < samples_count; ++k) {
     const double samples = pooled ? (*pooled)(samples_at(k)) : samples_at(k);
     const std::vector<double> filter = solver.weights(samples);
-    filters_.insert(filters_.end(), filter.begin(), filter.end());
+    filters.insert(filters.end(), filter.begin(), filter.end());
   }
+  return filters;
 }
 
 void WienerTable::weights(const AxisWedge& wedge, double samples, float* out) const {
@@ -98,12 +107,16 @@ void WienerTable::weights(const AxisWedge& wedge, double samples, float* out) co
   const GridPlace at_ratio(ratio_position(ratio), ratio_count);
   const GridPlace at_samples(samples_position(bounded_samples), samples_count);
   std::fill(out, out + size_, 0.0f);
-  for (int corner = 0; corner < 8; ++corner) {
-    const int i = corner & 1, j = corner >> 1 & 1, k = corner >> 2;
-    const float share = float(at_shift.of(i) * at_ratio.of(j) * at_samples.of(k));
-    if (share == 0.0f) continue;
-    const float* filter = entry(at_shift.first + i, at_ratio.first + j, at_samples.first + k);
-    for (size_t n = 0; n < size_; ++n) out[n] += share * filter[n];
+  for (int corner = 0; corner < 4; ++corner) {
+    const int i = corner & 1, j = corner >> 1;
+    const double wedge_share = at_shift.of(i) * at_ratio.of(j);
+    if (wedge_share == 0.0) continue;
+    const Filters& at = filters(at_shift.first + i, at_ratio.first + j);
+    for (int k = 0; k < 2; ++k) {
+      const float share = float(wedge_share * at_samples.of(k));
+      const float* filter = at.values.data() + size_t(at_samples.first + k) * size_;
+      for (size_t n = 0; n < size_; ++n) out[n] += share * filter[n];
+    }
   }
   if (!turned.mirrored) return;
   const int row = 2 * reach + 1;

@@ -1,7 +1,9 @@
 #pragma once
 /// The best linear filters of wiener_model.h over wedges and sample counts, interpolated.
 
+#include <array>
 #include <cstddef>
+#include <mutex>
 #include <vector>
 
 #include "reconstruct/method.h"
@@ -16,25 +18,26 @@ class WienerTable {
   static constexpr double max_shift = 64.0;     ///< pixels; larger ones count as this
   static constexpr double max_samples = 65536;  ///< more count as this
 
-  /// `components`: 1 to 7. `image_axes`: 1, or 2 for products of two such filters. Solves the whole
-  /// grid.
+  /// `components`: 1 to 7. `image_axes`: 1, or 2 for products of two such filters.
   WienerTable(int components, int image_axes);
 
-  /// As ReconstructionMethod::weights().
+  /// As ReconstructionMethod::weights(). Thread safe; filters are solved when first asked for,
+  /// which takes some milliseconds, and kept.
   void weights(const AxisWedge& wedge, double samples, float* out) const;
 
  private:
-  /// Appends the filters of a wedge, one a sample count.
-  void add_wedge(double low, double high, int image_axes);
-
   static constexpr int shift_count = 16, ratio_count = 13, samples_count = 9;
-  const float* entry(int shift, int ratio, int samples) const {
-    return &filters_[size_t((shift * ratio_count + ratio) * samples_count + samples) * size_];
-  }
+  /// The filters of a wedge, one a sample count.
+  struct Filters {
+    std::once_flag solved;
+    std::vector<float> values;  ///< [samples][k][dx]
+  };
+  const Filters& filters(int shift, int ratio) const;
+  std::vector<float> solve(double low, double high) const;
 
-  int components_;
-  size_t size_;                 ///< numbers of one filter
-  std::vector<float> filters_;  ///< [shift][ratio][samples][k][dx]
+  int components_, image_axes_;
+  size_t size_;                                                         ///< numbers of one filter
+  mutable std::array<Filters, size_t(shift_count* ratio_count)> grid_;  ///< [shift][ratio]
 };
 
 }  // namespace tessera

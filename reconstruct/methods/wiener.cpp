@@ -2,9 +2,6 @@
 /// a sum of products of a function over the image and a polynomial over y: the form that MAAF has,
 /// at the same cost. docs/reconstruction.md derives it.
 
-#include <mutex>
-#include <optional>
-
 #include "reconstruct/legendre.h"
 #include "reconstruct/method_arguments.h"
 #include "reconstruct/wiener_model.h"
@@ -15,7 +12,7 @@ namespace {
 
 class Wiener : public ReconstructionMethod {
  public:
-  explicit Wiener(int components) : components_(components) {
+  explicit Wiener(int components) : components_(components), table_(components, 2) {
     if (components > 1) for_bounces_ = std::make_unique<Wiener>(1);
   }
 
@@ -32,16 +29,13 @@ class Wiener : public ReconstructionMethod {
   }
 
   void weights(const AxisWedge& wedge, float samples, float* out) const override {
-    // Who asks only for the basis or the reach does not wait for the table.
-    std::call_once(once_, [this] { table_.emplace(components_, 2); });
-    table_->weights(wedge, samples, out);
+    table_.weights(wedge, samples, out);
   }
 
  private:
   int components_;
   std::unique_ptr<Wiener> for_bounces_;
-  mutable std::once_flag once_;
-  mutable std::optional<WienerTable> table_;
+  WienerTable table_;
 };
 
 std::unique_ptr<ReconstructionMethod> make(std::string_view arguments) {

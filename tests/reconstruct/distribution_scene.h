@@ -176,7 +176,8 @@ inline Image DistributionFrame::render(std::unique_ptr<ReconstructionMethod> met
                                        FilmCounters* counters) const {
   ReconstructionSettings s = settings;
   s.threads = threads;
-  const auto reconstruction = make_reconstruction(s, std::move(method));
+  s.method = std::move(method);
+  const auto reconstruction = make_reconstruction(s);
   const PixelRect all = s.film.sampled.empty() ? s.film.crop : s.film.sampled;
   const int size = s.film.bucket_size, columns = (all.width() + size - 1) / size;
   std::vector<int> order(size_t(columns * ((all.height() + size - 1) / size)));

@@ -174,7 +174,9 @@ TEST_CASE("Degenerate frames give finite pixels", "[reconstruction]") {
 TEST_CASE("A frame cut short shows what arrived", "[reconstruction]") {
   const DistributionFrame frame = busy_frame(64, 48);
   const Image whole = frame.render(gaussian());
-  const auto cut_short = make_reconstruction(frame.settings, gaussian());
+  ReconstructionSettings settings = frame.settings;
+  settings.method = gaussian();
+  const auto cut_short = make_reconstruction(settings);
   for (int b = 0; b < 9; ++b) {  // two of three rows of buckets, and one more
     const int x = 16 * (b % 4), y = 16 * (b / 4);
     cut_short->add_bucket(b % 4, b / 4, frame.bucket({x, y, x + 16, y + 16}));

@@ -2,8 +2,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <cmath>
+#include <numeric>
 #include <random>
+#include <thread>
 
 #include "reconstruct/cholesky.h"
 #include "reconstruct/wedge.h"
@@ -256,6 +259,28 @@ TEST_CASE("the table holds the solutions on its grid and stays near them between
       INFO(c.low << " " << c.high << " " << c.samples << " entry " << i);
       CHECK(found[i] == Approx(exact[i]).margin(c.margin));
     }
+  }
+}
+
+TEST_CASE("whichever thread first asks for a filter, all get the same", "[wiener]") {
+  const WienerTable alone(1, 2), shared(1, 2);
+  constexpr size_t size = 2 * WienerTable::reach + 1;
+  const auto weights = [](const WienerTable& table, size_t k) {
+    std::vector<float> out(size);
+    table.weights({float(k % 5) - 2.0f, float(k)}, double(1 + k), out.data());
+    return out;
+  };
+  std::array<std::array<std::vector<float>, 8>, 4> found;
+  std::vector<std::thread> threads;
+  for (size_t t = 0; t < found.size(); ++t)
+    threads.emplace_back([&, t] {
+      for (size_t k = 0; k < 8; ++k) found[t][(k + 2 * t) % 8] = weights(shared, (k + 2 * t) % 8);
+    });
+  for (std::thread& thread : threads) thread.join();
+  for (size_t k = 0; k < 8; ++k) {
+    const std::vector<float> expected = weights(alone, k);
+    CHECK(std::accumulate(expected.begin(), expected.end(), 0.0) == Approx(1.0));
+    for (const auto& of_thread : found) CHECK(of_thread[k] == expected);
   }
 }
 
