@@ -20,21 +20,21 @@ struct Candidate {
 /// Planes [channel][pixel] of a rectangle `width` pixels wide.
 struct Component {
   Component(int row_width, int rows)
-      : width(row_width), height(rows), plain(3, std::vector<float>(pixels())), variance(plain) {}
+      : width(row_width), height(rows), plain(3, std::vector<float>(pixels())), deviation(plain) {}
 
   size_t pixels() const { return size_t(width) * size_t(height); }
 
   int width, height;
   Planes plain;
-  Planes variance;  ///< of `plain`; below 0: not known
+  Planes deviation;  ///< the standard deviation of the noise of `plain`; below 0: not known
   std::vector<Candidate> candidates{};
 };
 
-/// A quotient of two sums of samples and the variance of its noise, told from two halves of the
-/// samples: halves of weights e and 1 - e that come to a and b say e (1 - e) (a - b)^2, as the
-/// variance of a mean is inverse to its weight.
+/// A quotient of two sums of samples and the standard deviation of its noise, told from two halves
+/// of the samples: halves of weights e and 1 - e that come to a and b say sqrt(e (1 - e)) |a - b|,
+/// as the variance of a mean is inverse to its weight. (Its square may be no float.)
 struct Quotient {
-  float value = 0, variance = 0;  ///< variance below 0: not known
+  float value = 0, deviation = 0;  ///< deviation below 0: not known
 };
 inline constexpr float smallest_divisor = 1e-20f;
 
@@ -45,12 +45,12 @@ inline Quotient halves_quotient(float sum, float even_sum, float divisor, float 
   const float share = even_divisor / divisor;
   const float odd_divisor = divisor - even_divisor;
   if (!(share > 1e-3f && share < 1.0f - 1e-3f)) {
-    q.variance = -1;
+    q.deviation = -1;
     return q;
   }
   const float difference = even_sum / even_divisor - (sum - even_sum) / odd_divisor;
-  q.variance = share * (1 - share) * difference * difference;
-  if (!std::isfinite(q.variance)) q.variance = -1;
+  q.deviation = std::sqrt(share * (1 - share)) * std::abs(difference);
+  if (!std::isfinite(q.deviation)) q.deviation = -1;
   if (!std::isfinite(q.value)) q = {};
   return q;
 }

@@ -140,7 +140,7 @@ void EffectFilter::describe_plain(size_t value, Component& component) const {
       const Quotient q = halves_quotient(mean(value + c)[p], even(value + c)[p],
                                          mean(MomentLayout::one)[p], even(MomentLayout::one)[p]);
       component.plain[c][p] = mean(value + c)[p];
-      component.variance[c][p] = q.variance;
+      component.deviation[c][p] = q.deviation;
     }
   });
 }
@@ -215,7 +215,7 @@ void EffectFilter::describe_ratio(RayEffect effect, Component& out) const {
       const Quotient plain = halves_quotient(mean(received + c)[p], even(received + c)[p],
                                              mean(drawn + c)[p], even(drawn + c)[p]);
       out.plain[c][p] = plain.value;
-      out.variance[c][p] = plain.variance;
+      out.deviation[c][p] = plain.deviation;
     }
   });
 }

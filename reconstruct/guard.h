@@ -21,8 +21,8 @@ namespace tessera {
 ///
 /// s2 is the lesser of two estimates, neither of which is too low on average: from two halves of
 /// each pixel's samples, too high where samples are stratified, and from how much F - y differs
-/// between neighbours, too high where F blurs details. Where the first is not known the filter is
-/// trusted.
+/// between neighbours, too high where F blurs details. Where the first is not known, as with one
+/// sample a pixel, the second is all there is.
 ///
 /// Pixels that are 0 in `shared` (or null) say nothing and get 0.
 std::vector<std::vector<float>> filtered_shares(const Component& component,

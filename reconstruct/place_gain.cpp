@@ -67,7 +67,7 @@ Planes place_gain(const std::array<std::array<const float*, 3>, 2>& sums,
       const Quotient q =
           halves_quotient(sums[0][c][p], even_sums[0][c][p], sums[1][c][p], even_sums[1][c][p]);
       gain.plain[c][p] = bounded_quotient(sums[0][c][p], sums[1][c][p]);
-      gain.variance[c][p] = q.variance;
+      gain.deviation[c][p] = q.deviation;
     }
   }
   const size_t pixels = gain.pixels();

@@ -22,7 +22,7 @@ Component noisy(float deviation, float bias, uint32_t seed = 3) {
     for (size_t c = 0; c < 3; ++c) {
       component.plain[c][p] = deviation * normal(random);
       // What two halves would say: a square with one degree of freedom.
-      component.variance[c][p] = deviation * deviation * std::pow(normal(random), 2.0f);
+      component.deviation[c][p] = deviation * std::abs(normal(random));
       candidate.filtered[c][p] = bias;
     }
   return component;
@@ -82,17 +82,32 @@ TEST_CASE("A filter that keeps a pixel's own noise is no gain", "[guard]") {
   CHECK(mean_of(shares_of(component)) == 0);
 }
 
-TEST_CASE("Where halves tell nothing, filters are trusted", "[guard]") {
-  Component component = noisy(0.5f, 2);
-  for (auto& plane : component.variance) std::fill(plane.begin(), plane.end(), -1.0f);
-  CHECK(mean_of(shares_of(component)) == 1);
+TEST_CASE("Where halves tell nothing, neighbours tell the noise", "[guard]") {
+  for (const float bias : {0.0f, 0.5f, 2.0f}) {
+    Component component = noisy(0.5f, bias);
+    const double known = mean_of(shares_of(component));
+    for (auto& plane : component.deviation) std::fill(plane.begin(), plane.end(), -1.0f);
+    CAPTURE(bias);
+    CHECK(mean_of(shares_of(component)) == Approx(known).margin(0.04));
+  }
+}
+
+TEST_CASE("The brightest and the darkest light are filtered alike", "[guard]") {
+  const Component component = noisy(0.5f, 0.4f);
+  for (const int exponent : {-90, 90}) {
+    Component scaled = component;
+    for (Planes* planes : {&scaled.plain, &scaled.deviation, &scaled.candidates[0].filtered})
+      for (auto& plane : *planes)
+        for (float& value : plane) value = std::ldexp(value, exponent);
+    CHECK(shares_of(scaled) == shares_of(component));
+  }
 }
 
 TEST_CASE("Halves of stratified samples that differ too much are not believed", "[guard]") {
   Component component = noisy(0.5f, 2);
   const double share = mean_of(shares_of(component));
-  for (auto& plane : component.variance)
-    for (float& variance : plane) variance *= 10;
+  for (auto& plane : component.deviation)
+    for (float& deviation : plane) deviation *= 3;
   CHECK(mean_of(shares_of(component)) == Approx(share).epsilon(0.2));
   // Noise that neighbours share by a half is twice what steps show.
   NoiseCorrelation half;
@@ -100,18 +115,35 @@ TEST_CASE("Halves of stratified samples that differ too much are not believed", 
   CHECK(mean_of(filtered_shares(component, half, nullptr).at(0)) == Approx(2 * share).epsilon(0.3));
 }
 
-TEST_CASE("Outliers and overflowing pixels say nothing to their neighbours", "[guard]") {
+TEST_CASE("Outliers say nothing to their neighbours", "[guard]") {
   const Component calm = noisy(0.5f, 0.2f);
   const std::vector<float> expected = shares_of(calm);
   Component wild = calm;
   const size_t at = 15 * 40 + 20;
   std::vector<float> shared(calm.pixels(), 1.0f);
-  SECTION("outlier") { wild.plain[1][at] = 1e6f, shared[at] = 0; }
-  SECTION("overflow") { wild.plain[1][at] = 1e30f; }
+  wild.plain[1][at] = 1e6f, shared[at] = 0;
   const std::vector<float> shares = shares_of(wild, &shared);
-  if (shared[at] == 0.0f) CHECK(shares[at] == 0);
+  CHECK(shares[at] == 0);
   for (size_t p = 0; p < shares.size(); ++p)
     if (p != at) REQUIRE(shares[p] == Approx(expected[p]).margin(0.06));
+}
+
+TEST_CASE("Near a filtered value that nothing explains nothing is filtered", "[guard]") {
+  const Component calm = noisy(0.5f, 0.2f);
+  const std::vector<float> expected = shares_of(calm);
+  Component wild = calm;
+  const int x = 20, y = 15;
+  wild.candidates[0].filtered[1][size_t(y * wild.width + x)] =
+      GENERATE(1e10f, 3e38f, std::numeric_limits<float>::infinity(), std::nanf(""));
+  const std::vector<float> shares = shares_of(wild);
+  for (int j = 0; j < wild.height; ++j)
+    for (int i = 0; i < wild.width; ++i) {
+      const size_t p = size_t(j * wild.width + i);
+      const int far = std::max(std::abs(i - x), std::abs(j - y));
+      CAPTURE(i, j);
+      if (far < guard_reach) REQUIRE(shares[p] < 1e-6f);
+      if (far > guard_reach) REQUIRE(shares[p] == expected[p]);
+    }
 }
 
 TEST_CASE("Of two filters the one without bias is taken, in any order", "[guard]") {
@@ -177,7 +209,7 @@ TEST_CASE("Halves tell the variance of a quotient's noise", "[guard]") {
       }
       const Quotient q = halves_quotient(sum, even, 2, 2 * float(even_count) / 8);
       REQUIRE(q.value == sum / 2);
-      told += q.variance / runs;
+      told += q.deviation * q.deviation / runs;
     }
     CHECK(told == Approx(0.25 / 8 / 4).epsilon(0.05));
   }
@@ -185,13 +217,13 @@ TEST_CASE("Halves tell the variance of a quotient's noise", "[guard]") {
 
 TEST_CASE("Quotients are sane at the extremes", "[guard]") {
   CHECK(halves_quotient(1, 0.5f, 0, 0).value == 0);
-  CHECK(halves_quotient(1, 1, 1, 1).variance < 0);  // one half has everything
-  CHECK(halves_quotient(1, 0, 1, 0).variance < 0);
+  CHECK(halves_quotient(1, 1, 1, 1).deviation < 0);  // one half has everything
+  CHECK(halves_quotient(1, 0, 1, 0).deviation < 0);
   for (const float huge : {1e30f, 3e38f})
     for (const float divisor : {1e-20f, 1e-19f, 1.0f, 1e30f}) {
       const Quotient q = halves_quotient(huge, 0, divisor, 0.5f * divisor);
       CHECK(std::isfinite(q.value));
-      CHECK(std::isfinite(q.variance));
+      CHECK(std::isfinite(q.deviation));
     }
 }
 
@@ -221,4 +253,24 @@ TEST_CASE("Only lone pixels far beyond those around are outliers", "[guard]") {
   CHECK(is_shared(10, 10) == 1);
   put(0, 0, 1e30f, 1);
   CHECK(is_shared(0, 0) == 0);
+}
+
+TEST_CASE("A few pixels a million times brighter than most around are outliers together",
+          "[guard]") {
+  const int width = 30, height = 20;
+  std::vector<float> value(size_t(width * height), 1.0f), even(value.size(), 0.5f);
+  const auto shared_of_lattice = [&](float bright, int step, float dark) {
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        value[size_t(y * width + x)] = x % step == 0 && y % step == 0 ? bright : dark;
+    for (size_t p = 0; p < value.size(); ++p) even[p] = 0.5f * value[p];
+    const std::vector<float> shared = shared_pixels(value, even, width, height, 1);
+    if (step > 1) CHECK(shared[1] == 1);  // a dark one
+    return shared[0];
+  };
+  CHECK(shared_of_lattice(1e7f, 3, 1.0f) == 0);
+  CHECK(shared_of_lattice(1e30f, 2, 1.0f) == 0);
+  CHECK(shared_of_lattice(1e5f, 3, 1.0f) == 1);  // not that bright
+  CHECK(shared_of_lattice(1e7f, 3, 0.0f) == 1);  // rare light in the dark
+  CHECK(shared_of_lattice(1e7f, 1, 1.0f) == 1);  // all of them
 }

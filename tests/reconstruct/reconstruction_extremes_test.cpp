@@ -46,6 +46,36 @@ TEST_CASE("Fireflies stay where they are", "[reconstruction]") {
     }
 }
 
+TEST_CASE("Fireflies next to each other stay where they are, too", "[reconstruction]") {
+  const bool guarded = GENERATE(false, true);
+  DistributionFrame frame = busy_frame(64, 64);
+  frame.samples_per_pixel = 8;
+  const auto shade = frame.shade;
+  const Image without = frame.render(gaussian(guarded));
+  // Three within the reach of one another, one of them in both halves of its samples.
+  const auto fires = [](float x, float y) {
+    return (x > 30 && x < 31 && y > 33 && y < 34) || (x > 33 && x < 34 && y > 33 && y < 34) ||
+           (x > 31 && x < 32 && y > 36 && y < 37);
+  };
+  frame.shade = [=](SceneSample& s) {
+    shade(s);
+    const float until = s.x < 31 ? 0.9f : 0.12f;
+    if (fires(s.x, s.y) && s.t < until) set(s.rays[1].received, 1e30f), s.rays[1].slope = 1;
+  };
+  const Image plain = frame.render(nullptr), with = frame.render(gaussian(guarded));
+  CHECK(all_finite(with));
+  CHECK(mean_of(with) == Approx(mean_of(plain)).epsilon(0.01));
+  size_t bright = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const size_t p = with.index(x, y);
+      bright += plain.channels[0].values[p] > 1e20f;
+      if (plain.channels[0].values[p] < 1e3f)
+        REQUIRE(std::abs(with.channels[0].values[p] - without.channels[0].values[p]) < 0.5f);
+    }
+  CHECK(bright > 3);
+}
+
 TEST_CASE("Filtered light is neither below 0 nor above what nothing blocks", "[reconstruction]") {
   DistributionFrame frame(96, 40);
   frame.settings.features.lens = frame.settings.features.shadow = true;
@@ -75,7 +105,7 @@ TEST_CASE("Rare light in the dark is shared, not an outlier", "[reconstruction]"
     s.rays[0].slope = 1, s.rays[0].extent[0] = s.rays[0].extent[1] = 10;
   };
   frame.samples_per_pixel = 1;
-  const Image plain = frame.render(nullptr), filtered = frame.render(gaussian());
+  const Image plain = frame.render(nullptr), filtered = frame.render(gaussian(false));
   const size_t at = plain.index(30, 30);
   float most = 0;
   for (const float value : filtered.channels[0].values) most = std::max(most, value);
