@@ -15,6 +15,8 @@ namespace {
 
 /// Weights that sum to less than this share of what they should make no average.
 constexpr float least_normaliser = 0.02f;
+/// The same where weights of samples cancel: light that was drawn, as a share of what would arrive.
+constexpr float least_steady = 0.25f;
 
 /// Wedges that guarded methods try, as shares of the way from the least shift to the largest:
 /// slopes that were met are no sign of how often they were.
@@ -78,6 +80,9 @@ class EffectFilter {
   template <class Source>
   void add_ratio(RayEffect effect, const Source& source, Component& component) const;
   Planes gain_of(RayEffect effect) const;
+  bool divides(float drawn, float wanted) const;
+  bool steady(RayEffect effect, size_t p) const;
+  float least_weight() const { return in_.cancels ? least_steady : least_normaliser; }
   std::vector<float> shared_ratios(RayEffect effect, const Component& ratio) const;
   Planes blend(const Component& component, const std::vector<float>* shared) const;
 
@@ -156,7 +161,7 @@ Planes EffectFilter::through_lens(size_t value) const {
     for_pixels([&](size_t p) {
       const StackFilterOutput& from = filter.at(along_motion_[p]);
       const float normaliser = from.values[MomentLayout::one][p];
-      const bool usable = normaliser > least_normaliser;
+      const bool usable = normaliser > least_weight();
       candidate.own_weight[p] = usable ? from.own_weight[p] / normaliser : 1.0f;
       for (size_t c = 0; c < 3 && usable; ++c) {
         const float filtered = from.values[value + c][p] / normaliser;
@@ -189,6 +194,23 @@ Planes EffectFilter::blend(const Component& component, const std::vector<float>*
   return out;
 }
 
+/// Whether what samples drew of the light that is wanted is enough to divide by.
+bool EffectFilter::divides(float drawn, float wanted) const {
+  if (!(std::abs(drawn) > smallest_divisor)) return false;
+  return !in_.cancels || drawn / wanted > least_steady;
+}
+
+/// The same of all channels of a pixel, where there is light.
+bool EffectFilter::steady(RayEffect effect, size_t p) const {
+  if (!in_.cancels) return true;
+  const size_t drawn = layout_.drawn(effect), unblocked = layout_.unblocked(effect);
+  for (size_t c = 0; c < 3; ++c) {
+    const float wanted = mean(unblocked + c)[p];
+    if (std::abs(wanted) > smallest_divisor && !divides(mean(drawn + c)[p], wanted)) return false;
+  }
+  return true;
+}
+
 /// A ratio of shadows is at most 1, and lone lit samples in the dark are what filters are for: only
 /// what would arrive unblocked can be an outlier there.
 std::vector<float> EffectFilter::shared_ratios(RayEffect effect, const Component& ratio) const {
@@ -204,7 +226,11 @@ std::vector<float> EffectFilter::shared_ratios(RayEffect effect, const Component
         even_part[p] += size * std::abs(even(first + c)[p] / sum);
     }
   });
-  return shared_pixels(value, even_part, width_, height_, in_.noise_spread);
+  std::vector<float> shared = shared_pixels(value, even_part, width_, height_, in_.noise_spread);
+  for_pixels([&](size_t p) {
+    if (!steady(effect, p)) shared[p] = 0.0f;
+  });
+  return shared;
 }
 
 /// What arrived over what would from the same places, unfiltered.
@@ -236,7 +262,7 @@ void EffectFilter::add_ratio(RayEffect effect, const Source& source, Component& 
       const float plain = component.plain[c][p], divisor = mean(drawn + c)[p];
       const float normaliser = filtered->values[first + 3 + c][p];
       const float ratio = filtered->values[first + c][p] / normaliser;
-      if (!std::isfinite(ratio) || !(normaliser / divisor > least_normaliser)) continue;
+      if (!std::isfinite(ratio) || !(normaliser / divisor > least_weight())) continue;
       candidate.filtered[c][p] =
           plain >= 0 ? std::clamp(ratio, 0.0f, std::max(most, plain)) : ratio;
       own = std::max(own, filtered->own_weight[p] * (divisor / normaliser));
@@ -292,8 +318,8 @@ Planes EffectFilter::filter_received(RayEffect effect) const {
   const Planes gain = effect == RayEffect::shadow ? gain_of(effect) : Planes();
   Planes out{mean(received), mean(received + 1), mean(received + 2)};
   for_pixels([&](size_t p) {
-    for (size_t c = 0; c < 3; ++c)
-      if (std::abs(mean(drawn + c)[p]) > smallest_divisor)
+    for (size_t c = 0; c < 3 && steady(effect, p); ++c)
+      if (divides(mean(drawn + c)[p], light[c][p]))
         out[c][p] = light[c][p] * own_ratio[c][p] * (gain.empty() ? 1.0f : gain[c][p]);
   });
   return out;

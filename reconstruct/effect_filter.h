@@ -17,6 +17,7 @@ struct EffectFilterInput {
   const Planes* planes = nullptr;     ///< as StackFilterInput::planes
   NoiseCorrelation correlation;
   int noise_spread = 1;  ///< pixels to either side that may hold the same sample
+  bool cancels = false;  ///< the pixel filter has weights below 0: sums may come to nearly nothing
 };
 
 /// Planes [channel][pixel], over the rectangle of the facts.

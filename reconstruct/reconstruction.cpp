@@ -46,6 +46,17 @@ std::array<float, NoiseCorrelation::reach + 1> autocorrelation(const FilmSetting
   return out;
 }
 
+/// Along either axis.
+bool has_weights_below_zero(const FilmSettings& film) {
+  constexpr int steps = 1024;
+  for (const float width : {film.filter_x_width, film.filter_y_width}) {
+    const FilterTable table(find_pixel_filter(film.filter), width);
+    for (int k = 0; k < steps; ++k)
+      if (table(width * ((float(k) + 0.5f) / steps - 0.5f)) < 0.0f) return true;
+  }
+  return false;
+}
+
 /// A film that sums moments, and the filters that run over them in the end.
 class FilteredReconstruction final : public Reconstruction {
  public:
@@ -116,6 +127,7 @@ void FilteredReconstruction::finish_image(const Image& all, Image& image) {
   const FilmSettings& film = settings_.film;
   input.correlation = {autocorrelation(film, film.filter_x_width),
                        autocorrelation(film, film.filter_y_width)};
+  input.cancels = has_weights_below_zero(film);
   input.noise_spread =
       int(std::ceil(std::max(film.filter_x_width, film.filter_y_width) - 1e-3f)) - 1;
   const FilteredColors colors = filter_effects(input);

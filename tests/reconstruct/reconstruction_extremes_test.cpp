@@ -115,6 +115,34 @@ TEST_CASE("Rare light in the dark is shared, not an outlier", "[reconstruction]"
   CHECK(mean_of(filtered) == Approx(mean_of(plain)).epsilon(0.01));
 }
 
+TEST_CASE("Pixel filters whose weights cancel make no wild pixels", "[reconstruction]") {
+  DistributionFrame frame = busy_frame(64, 64);
+  frame.settings.film.filter = GENERATE("mitchell", "catmull-rom", "sinc");
+  frame.settings.film.filter_x_width = frame.settings.film.filter_y_width = 4;
+  frame.samples_per_pixel = 4;
+  const auto shade = frame.shade;
+  // Surfaces of a pixel and less, of which every other sends back much more light.
+  frame.shade = [=](SceneSample& s) {
+    shade(s);
+    const bool bright = (int(s.x) + int(s.y)) % 2 == 0;
+    for (auto& ray : s.rays)
+      for (size_t c = 0; c < 3; ++c)
+        ray.unblocked[c] *= bright ? 1.0f : 1e-3f, ray.received[c] *= bright ? 1.0f : 1e-3f;
+  };
+  const auto range_of = [](const Image& image) {
+    const auto [least, most] = std::ranges::minmax(image.channels[0].values);
+    return std::array{least, most};
+  };
+  const auto plain = range_of(frame.render(nullptr));
+  for (const bool guarded : {false, true}) {
+    const auto filtered = range_of(frame.render(gaussian(guarded)));
+    CAPTURE(frame.settings.film.filter, guarded, plain[0], plain[1]);
+    const float span = plain[1] - plain[0];
+    CHECK(filtered[0] > plain[0] - 0.25f * span);
+    CHECK(filtered[1] < plain[1] + 0.25f * span);
+  }
+}
+
 TEST_CASE("Hard edges do not ring, and the other side is not shared", "[reconstruction]") {
   // A penumbra that ends at an edge where the surface turns: left lit half, right not at all.
   DistributionFrame frame(64, 32);
