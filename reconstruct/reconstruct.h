@@ -53,10 +53,12 @@ struct FilmSettings {
 
 struct FilmCounters {
   uint64_t pixels = 0, nonfinite_samples_dropped = 0;
+  uint64_t pixel_values_bounded = 0;  ///< of filtered channels, that left the range of floats
   static constexpr auto fields() {
     using C = FilmCounters;
     return std::array{CounterField<C>{"pixels", &C::pixels},
-                      CounterField<C>{"nonfinite_samples_dropped", &C::nonfinite_samples_dropped}};
+                      CounterField<C>{"nonfinite_samples_dropped", &C::nonfinite_samples_dropped},
+                      CounterField<C>{"pixel_values_bounded", &C::pixel_values_bounded}};
   }
 };
 

@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include "base/error.h"
+#include "reconstruct/bounded_values.h"
 #include "reconstruct/effect_filter.h"
 #include "reconstruct/exposure.h"
 #include "reconstruct/filter_table.h"
@@ -17,18 +18,30 @@
 namespace tessera {
 namespace {
 
+FilmCounters with_bounded(FilmCounters counters, uint64_t values) {
+  counters.pixel_values_bounded += values;
+  return counters;
+}
+
 /// The pixel filter alone.
 class FilmReconstruction final : public Reconstruction {
  public:
-  explicit FilmReconstruction(const FilmSettings& settings) : film_(settings) {}
+  explicit FilmReconstruction(const FilmSettings& settings)
+      : groups_(settings.groups), film_(settings) {}
   void add_bucket(int i, int j, SampleValues&& values) override {
     film_.add_bucket(i, j, std::move(values));
   }
-  Image finish() override { return film_.finish(); }
-  FilmCounters counters() const override { return film_.counters(); }
+  Image finish() override {
+    Image image = film_.finish();
+    bounded_ = bound_values(groups_, image);
+    return image;
+  }
+  FilmCounters counters() const override { return with_bounded(film_.counters(), bounded_); }
 
  private:
+  std::vector<const AovDefinition*> groups_;
   Film film_;
+  uint64_t bounded_ = 0;
 };
 
 /// Autocorrelation of a pixel filter along one axis at whole pixels, 1 at 0.
@@ -80,11 +93,12 @@ class FilteredReconstruction final : public Reconstruction {
     Image image(all.display_window, settings_.film.crop);
     tbb::task_arena arena(std::max(settings_.threads, 1));
     arena.execute([&] { finish_image(all, image); });
+    bounded_ = bound_values(settings_.film.groups, image);
     filter_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return image;
   }
 
-  FilmCounters counters() const override { return film_.counters(); }
+  FilmCounters counters() const override { return with_bounded(film_.counters(), bounded_); }
   double filter_s() const override { return filter_s_; }
   double bound_samples() const override { return bound_samples_; }
 
@@ -106,6 +120,7 @@ class FilteredReconstruction final : public Reconstruction {
   PixelFacts facts_;
   Film film_;
   double filter_s_ = 0, bound_samples_ = 0;
+  uint64_t bounded_ = 0;
 };
 
 /// The film's own colours are replaced in the end (write_colors).

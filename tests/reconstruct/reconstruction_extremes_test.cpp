@@ -115,6 +115,24 @@ TEST_CASE("Rare light in the dark is shared, not an outlier", "[reconstruction]"
   CHECK(mean_of(filtered) == Approx(mean_of(plain)).epsilon(0.01));
 }
 
+TEST_CASE("Pixels beyond floats are bounded and counted",
+          "[reconstruction]") {
+  const bool filtered = GENERATE(false, true);
+  DistributionFrame frame(20, 20);
+  frame.settings.features.lens = true;
+  frame.settings.film.exposure_gain = 16;
+  frame.shade = [](SceneSample& s) {
+    set(s.base, s.x < 10 ? 5e37f : -5e37f);
+  };
+  FilmCounters counters;
+  const Image image = frame.render(filtered ? gaussian() : nullptr, 0, 1, &counters);
+  CHECK(counters.pixel_values_bounded == 3 * 20 * 20);
+  constexpr float most = std::numeric_limits<float>::max();
+  CHECK(image.channels[0].values[image.index(3, 3)] == most);
+  CHECK(image.channels[2].values[image.index(15, 3)] == -most);
+  CHECK(image.find_channel("Z")->values[image.index(3, 3)] == 1.0f);
+}
+
 TEST_CASE("Pixel filters whose weights cancel make no wild pixels", "[reconstruction]") {
   DistributionFrame frame = busy_frame(64, 64);
   frame.settings.film.filter = GENERATE("mitchell", "catmull-rom", "sinc");
