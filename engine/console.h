@@ -15,7 +15,7 @@ namespace tessera {
 enum class Verbosity { quiet, normal, verbose };
 
 /// Thread safe. Results go to standard output, everything else to standard error. A line is given
-/// without its line end.
+/// without its line end. Streams that are full or closed are no error here.
 class Console {
  public:
   explicit Console(Verbosity verbosity);
