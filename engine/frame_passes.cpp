@@ -8,6 +8,7 @@
 
 #include "cameras/camera_matrices.h"
 #include "engine/bucket_queue.h"
+#include "engine/frame_files.h"
 #include "engine/overrides.h"
 #include "engine/version.h"
 #include "reconstruct/exposure.h"
@@ -26,7 +27,7 @@ void add_metadata(FrameResult& frame, const Scene& scene) {
   metadata["software"] = fmt::format("Tessera {}", version);
   metadata["tessera:scene"] = scene.file;
   metadata["tessera:frame"] = std::to_string(scene.frame_number);
-  metadata["tessera:complete"] = frame.complete ? "yes" : "no, cancelled";
+  metadata[complete_attribute] = frame.complete ? "yes" : "no, cancelled";
   metadata["tessera:summary"] = frame.statistics.summary();
   for (const auto& [name, value] : frame.statistics.plan) metadata["tessera:plan:" + name] = value;
   for (const auto& [name, value] : frame.statistics.options)

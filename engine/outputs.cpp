@@ -1,13 +1,14 @@
 #include "engine/outputs.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "engine/frame_files.h"
 #include "engine/heatmap.h"
 #include "images/exr.h"
+#include "images/file_kinds.h"
 #include "images/image_module.h"
 #include "images/preview.h"
 #include "shade/shade.h"
@@ -15,15 +16,6 @@
 
 namespace tessera {
 namespace {
-
-std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
-}
-
-bool is_exr(const std::string& path) { return lower_extension(path) == ".exr"; }
 
 /// Displays of interactive windows have no place in a batch.
 bool is_file(const Display& display) {
@@ -93,11 +85,6 @@ void decode_colours(Image& image) {
       for (float& value : channel.values) value = linear_from_srgb(value);
 }
 
-bool is_8_bit(const std::string& path) {
-  const std::string extension = lower_extension(path);
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
-}
-
 /// "cell.R" is R in a file that holds nothing else.
 void drop_group_names(Image& image) {
   for (Image::Channel& channel : image.channels)
@@ -108,14 +95,15 @@ void drop_group_names(Image& image) {
 /// Writes through the image module: formats other than EXR.
 void write_other(Image image, const std::string& path, bool display_encoded) {
   drop_group_names(image);
-  if (display_encoded && is_8_bit(path)) decode_colours(image);
+  if (display_encoded && named_8_bit(path)) decode_colours(image);
+  if (is_interrupted(image)) image.metadata[description_attribute] = interrupted_description;
   load_image_module()->write_image(path, image);
 }
 
 }  // namespace
 
 void write_frame(const FrameResult& frame, const std::string& path) {
-  if (is_exr(path)) return write_exr(path, frame.image);
+  if (named_exr(path)) return write_exr(path, frame.image);
   // Formats other than EXR hold one picture.
   write_other(with_channels(frame.image, {"R", "G", "B", "A"}), path, frame.display_encoded);
 }
@@ -134,7 +122,7 @@ std::vector<std::string> write_displays(const FrameResult& frame, const Scene& s
   for (const Display& display : scene.displays) {
     if (!is_file(display)) continue;
     std::vector<std::string> channels = mode_channels(display);
-    if (!frame.heatmap.empty() && is_exr(display_path(display)) && !is_depth_file(display))
+    if (!frame.heatmap.empty() && named_exr(display_path(display)) && !is_depth_file(display))
       channels.push_back(heatmap_channel(frame.heatmap));
     Image image = with_channels(frame.image, channels);
     if (image.channels.empty()) {
@@ -144,7 +132,7 @@ std::vector<std::string> write_displays(const FrameResult& frame, const Scene& s
       continue;
     }
     const std::string path = display_path(display);
-    if (is_depth_file(display) || is_exr(path))
+    if (is_depth_file(display) || named_exr(path))
       write_exr(path, image);
     else
       write_other(std::move(image), path, frame.display_encoded);
@@ -169,7 +157,7 @@ void make_shadow(const std::string& picture, const std::string& shadow) {
 
 void write_preview(const FrameResult& frame, const std::string& path) {
   Image picture = with_channels(frame.image, {"R", "G", "B"});
-  if (is_exr(path)) return write_exr(path, picture);
+  if (named_exr(path)) return write_exr(path, picture);
   write_other(std::move(picture), path, frame.display_encoded);
 }
 
