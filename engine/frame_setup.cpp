@@ -1,5 +1,6 @@
 #include "engine/frame_setup.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
@@ -111,7 +112,9 @@ ReconstructionSettings reconstruction_settings(const FramePlan& plan, const Buck
 int thread_count(const Settings& settings) {
   if (settings.threads < 0 || settings.threads > 1024)
     throw Error(fmt::format("threads must lie between 0 and 1024, found {}", settings.threads));
-  return settings.threads > 0 ? settings.threads : int(std::thread::hardware_concurrency());
+  // The library may not know how many cores there are, and then says 0.
+  const int cores = std::max(1, int(std::thread::hardware_concurrency()));
+  return settings.threads > 0 ? settings.threads : cores;
 }
 
 }  // namespace tessera
