@@ -39,7 +39,7 @@ class Rounds {
     }
     if (mean_.empty()) return passes_.finish(std::move(interrupted_));
     warn();
-    return passes_.finish({mean_.take_image(), {}, complete_}, statistics());
+    return passes_.finish({mean_.take_image(), {}, true}, statistics(), !complete_);
   }
 
  private:

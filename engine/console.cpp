@@ -49,11 +49,11 @@ void Console::begin_progress(const std::string& label) {
   progress_start_ = Clock::now();
 }
 
-void Console::progress(int done, int total) {
+void Console::progress(const FrameProgress& progress) {
   const std::lock_guard lock(mutex_);
   if (!meter_) return;
   const std::chrono::duration<double> elapsed = Clock::now() - progress_start_;
-  const std::optional<std::string> text = meter_->update(done, total, elapsed.count());
+  const std::optional<std::string> text = meter_->update(progress, elapsed.count());
   if (!text) return;
   put(stderr, *text);
   std::fflush(stderr);

@@ -29,9 +29,9 @@ class Console {
   /// "error: LINE", always.
   void error(const std::string& line);
 
-  /// Starts a progress bar; nothing when quiet. The clock starts here.
+  /// Starts a progress bar; nothing when quiet.
   void begin_progress(const std::string& label);
-  void progress(int done, int total);
+  void progress(const FrameProgress& progress);
   void end_progress();
 
  private:

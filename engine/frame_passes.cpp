@@ -131,6 +131,12 @@ const LensProfile* FramePasses::lens() const {
   return plan_.lens ? &camera_.lens_profile() : nullptr;
 }
 
+int FramePasses::known_passes() const {
+  if (!settings_.rounds.empty()) return 2 * int(settings_.rounds.size());
+  if (!settings_.passes.empty()) return int(settings_.passes.size());
+  return several_ ? 0 : 1;
+}
+
 bool FramePasses::adaptive() const { return plan_.sample_tuples.kind == SampleTuples::Kind::free; }
 
 int FramePasses::lowest_level() const {
@@ -184,7 +190,7 @@ PassResult FramePasses::render(const Samples& samples) {
                            samples.levels,
                            several_,
                            heatmap_ ? &*heatmap_ : nullptr};
-    BucketQueue queue(buckets_, control_);
+    BucketQueue queue(buckets_, control_, ++pass_count_, known_passes());
     render_buckets(parts, threads_, queue, statistics_);
     result.complete = queue.complete();
   }
@@ -194,9 +200,10 @@ PassResult FramePasses::render(const Samples& samples) {
   return result;
 }
 
-FrameResult FramePasses::finish(PassResult&& pass, AccuracyStatistics&& accuracy) {
+FrameResult FramePasses::finish(PassResult&& pass, AccuracyStatistics&& accuracy, bool cancelled) {
   FrameResult result;
-  result.complete = pass.complete;
+  result.whole = pass.complete;
+  result.complete = pass.complete && !cancelled;
   result.image = std::move(pass.image);
   const float gamma = scene_.options.exposure_gamma;
   result.display_encoded = gamma != 1.0f;

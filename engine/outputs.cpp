@@ -1,11 +1,12 @@
 #include "engine/outputs.h"
 
+#include <cctype>
 #include <filesystem>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "engine/frame_files.h"
 #include "engine/heatmap.h"
 #include "images/exr.h"
 #include "images/file_kinds.h"
@@ -38,31 +39,14 @@ std::string display_path(const Display& display) {
 std::vector<std::string> mode_channels(const Display& display) {
   for (const AovDefinition& group : aov_registry())
     if (display.mode == group.name) return group.channels;
+  constexpr std::string_view letters = "rgbaz";
+  if (display.mode.empty() || display.mode.find_first_not_of(letters) != std::string::npos)
+    throw Error(display.where,
+                fmt::format("Display mode '{}': expected letters of {} or the name of an auxiliary "
+                            "channel group",
+                            display.mode, letters));
   std::vector<std::string> channels;
-  for (char letter : display.mode) {
-    switch (letter) {
-      case 'r':
-        channels.push_back("R");
-        break;
-      case 'g':
-        channels.push_back("G");
-        break;
-      case 'b':
-        channels.push_back("B");
-        break;
-      case 'a':
-        channels.push_back("A");
-        break;
-      case 'z':
-        channels.push_back("Z");
-        break;
-      default:
-        throw Error(display.where,
-                    fmt::format("Display mode '{}': expected letters of rgbaz or the name of an "
-                                "auxiliary channel group",
-                                display.mode));
-    }
-  }
+  for (const char letter : display.mode) channels.emplace_back(1, char(std::toupper(letter)));
   return channels;
 }
 
@@ -102,6 +86,17 @@ void write_other(Image image, const std::string& path, bool display_encoded) {
 
 }  // namespace
 
+void check_formats(const FrameFiles& files, const Scene& scene) {
+  if (!files.from_displays) check_format(files.images.front());
+  if (!files.preview.empty()) check_format(files.preview);
+  if (!files.from_displays) return;
+  for (const Display& display : scene.displays) {
+    if (!is_file(display)) continue;
+    mode_channels(display);
+    if (!is_depth_file(display)) check_format(display_path(display));
+  }
+}
+
 void write_frame(const FrameResult& frame, const std::string& path) {
   if (named_exr(path)) return write_exr(path, frame.image);
   // Formats other than EXR hold one picture.
@@ -116,22 +111,15 @@ std::vector<std::string> display_outputs(const Scene& scene) {
   return paths;
 }
 
-std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene,
-                                        Diagnostics& diagnostics) {
+std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene) {
   std::vector<std::string> written;
   for (const Display& display : scene.displays) {
     if (!is_file(display)) continue;
+    const std::string path = display_path(display);
     std::vector<std::string> channels = mode_channels(display);
-    if (!frame.heatmap.empty() && named_exr(display_path(display)) && !is_depth_file(display))
+    if (!frame.heatmap.empty() && named_exr(path) && !is_depth_file(display))
       channels.push_back(heatmap_channel(frame.heatmap));
     Image image = with_channels(frame.image, channels);
-    if (image.channels.empty()) {
-      diagnostics.warn_once("display " + display.file, display.where,
-                            fmt::format("Display mode '{}' names no channel; '{}' is not written",
-                                        display.mode, display.file));
-      continue;
-    }
-    const std::string path = display_path(display);
     if (is_depth_file(display) || named_exr(path))
       write_exr(path, image);
     else

@@ -48,8 +48,7 @@ class TimedFrame {
     std::optional<int> samples = first();
     while (samples && add_pass(*samples)) samples = next();
     if (complete_ && target_.time_s) warn(diagnostics);
-    frame_.complete = complete_;
-    return passes_.finish(std::move(frame_), statistics());
+    return passes_.finish(std::move(frame_), statistics(), !complete_);
   }
 
  private:

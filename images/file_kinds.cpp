@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/error.h"
+
 namespace tessera {
 
 std::string lower_extension(const std::string& path) {
@@ -20,6 +22,14 @@ bool named_exr(const std::string& path) { return lower_extension(path) == ".exr"
 bool named_8_bit(const std::string& path) {
   const std::string extension = lower_extension(path);
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+}
+
+void check_format(const std::string& path) {
+  const std::string extension = lower_extension(path);
+  if (named_exr(path) || named_8_bit(path) || extension == ".tif" || extension == ".tiff") return;
+  throw Error(fmt::format(
+      "cannot write {}: unknown format \"{}\"; expected .exr, .png, .jpg, .jpeg, .tif or .tiff",
+      path, extension));
 }
 
 bool holds_exr(const std::string& path) {

@@ -14,6 +14,9 @@ bool named_exr(const std::string& path);
 /// Whether a file of that name has 8 bits a channel, sRGB code values: PNG and JPEG.
 bool named_8_bit(const std::string& path);
 
+/// Throws Error unless a picture can be written under that name: EXR, PNG, JPEG or TIFF.
+void check_format(const std::string& path);
+
 /// Whether the file begins as an EXR does, whatever its name. False when it cannot be read.
 bool holds_exr(const std::string& path);
 

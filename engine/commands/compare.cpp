@@ -80,7 +80,10 @@ void print(const ImageDifference& difference) {
 }
 
 int run(const CompareOptions& options) {
-  if (!options.difference.empty()) check_writable(options.difference);
+  if (!options.difference.empty()) {
+    check_writable(options.difference);
+    check_format(options.difference);
+  }
   const Image a = read_image(options.a), b = read_image(options.b);
   const ImageDifference difference = compare_images(a, b);
   print(difference);

@@ -51,13 +51,10 @@ class OiioModule final : public ImageModule {
   void write_image(const std::string& path, const Image& image) const override {
     if (image.data_window.empty() || image.channels.empty())
       throw Error(fmt::format("cannot write {}: the image is empty", path));
-    const std::string kind = lower_extension(path);
+    check_format(path);
     if (named_exr(path)) return write_exr(path, image);
-    if (named_8_bit(path)) return write_srgb8(path, image, kind == ".png");
-    if (kind == ".tif" || kind == ".tiff") return write_floats(path, image);
-    throw Error(fmt::format(
-        "cannot write {}: unknown format \"{}\"; expected .exr, .png, .jpg, .jpeg, .tif or .tiff",
-        path, kind));
+    if (named_8_bit(path)) return write_srgb8(path, image, lower_extension(path) == ".png");
+    write_floats(path, image);
   }
 
   Image read_image(const std::string& path) const override {
