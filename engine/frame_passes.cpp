@@ -112,15 +112,19 @@ FramePasses::FramePasses(const Scene& scene, const Settings& settings, Diagnosti
   shading_ = control.make_shading ? control.make_shading(plan_.shading, shaded)
                                   : make_shading(plan_.shading, shaded);
   if (settings.heatmap) heatmap_.emplace(find_heatmap(*settings.heatmap), camera_.crop());
-  if (scene_.surfaces.empty()) return;
+  if (!scene_.surfaces.empty()) set_up_surfaces();
+  statistics_.setup_done();
+}
+
+void FramePasses::set_up_surfaces() {
   if (plan_.displacement) displacer_ = make_displacer(bindings_);
-  const DiceSettings dice = dice_settings(plan_, buckets_, settings, displacer_.get(), bindings_);
-  grids_ = make_grid_source(scene_, camera_, dice, diagnostics);
-  if (const auto rays = ray_tracer(plan_, scene_, camera_, settings, dice, threads_, diagnostics)) {
+  const DiceSettings dice = dice_settings(plan_, buckets_, settings_, displacer_.get(), bindings_);
+  grids_ = make_grid_source(scene_, camera_, dice, diagnostics_);
+  if (const auto rays =
+          ray_tracer(plan_, scene_, camera_, settings_, dice, threads_, diagnostics_)) {
     use_rays(*bindings_, rays);
     statistics_.add(*rays);
   }
-  statistics_.setup_done();
 }
 
 const ShutterProfile* FramePasses::shutter() const {

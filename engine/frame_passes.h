@@ -64,6 +64,7 @@ class FramePasses {
     const SampleAllocation* allocation = nullptr;
     const LevelPatterns* levels = nullptr;
   };
+  void set_up_surfaces();
   PassResult render(const Samples& samples);
   const ShutterProfile* shutter() const;
   const LensProfile* lens() const;
