@@ -2,12 +2,12 @@
 
 #include <tbb/global_control.h>
 
+#include "engine/accuracy_target.h"
 #include "engine/accurate_frame.h"
 #include "engine/frame_passes.h"
 #include "engine/frame_setup.h"
 #include "engine/overrides.h"
 #include "engine/qualities.h"
-#include "engine/round_planner.h"
 #include "engine/timed_frame.h"
 
 namespace tessera {

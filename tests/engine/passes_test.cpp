@@ -68,6 +68,9 @@ TEST_CASE("a cancelled frame is whole when a pass before was") {
     CHECK_FALSE(first.complete);
     CHECK_FALSE(first.whole);
     CHECK(is_interrupted(first.image));
+    // One of two passes that make a round is a whole image, too.
+    CHECK(render_watched(settings, 2).frame.whole);
+    CHECK_FALSE(render_watched(settings, 2).frame.complete);
     const FrameResult third = render_watched(settings, 3).frame;
     CHECK_FALSE(third.complete);
     CHECK(third.whole);
