@@ -75,6 +75,7 @@ TEST_CASE("textures are those of lights that shine, too, and shadow maps are non
   CHECK_FALSE(plan_of(lit_by("\"domelight\" 1")).textures);
   CHECK_FALSE(plan_of(lit_by("\"domelight\" 1 \"texturename\" [\"\"]")).textures);
   CHECK_FALSE(plan_of(lit_by(dome + "\nIlluminate 1 0")).textures);
+  CHECK_FALSE(plan_of(lit_by("\"spotlight\" 1 \"shadowname\" [\"map.shd\"]")).textures);
 }
 
 TEST_CASE("a frame of nothing took time to set up") {
