@@ -37,9 +37,9 @@ class Rounds {
                             {lowest_level(), request->least_pass_samples,
                              request->most_pass_samples, passes_.adaptive()});
     }
-    if (mean_.empty()) return passes_.finish(std::move(interrupted_));
+    if (mean_.empty()) return passes_.finish(std::move(interrupted_), {}, true);
     warn();
-    return passes_.finish({mean_.take_image(), {}, complete_}, statistics());
+    return passes_.finish({mean_.take_image(), {}, true}, statistics(), !complete_);
   }
 
  private:
@@ -68,7 +68,7 @@ class Rounds {
       mean_.add({std::move(a.image), std::move(b.image), std::move(a.plain), std::move(b.plain)},
                 allocation);
     else
-      interrupted_ = {std::move(a.image), {}, false};
+      interrupted_ = std::move(a);
     return complete_;
   }
 
@@ -89,11 +89,7 @@ class Rounds {
                       *target_.error, mean_.mean_samples(),
                       planner_.end() == RoundsEnd::time_spent ? " in the time given" : "",
                       error()));
-    if (target_.time_s && passes_.elapsed_s() > 1.1 * *target_.time_s && complete_)
-      diagnostics_.warn_once(
-          "time target", fmt::format("the frame took {:.3g} s rather than {:.3g} s, with {:.4g} "
-                                     "samples a pixel",
-                                     passes_.elapsed_s(), *target_.time_s, mean_.mean_samples()));
+    if (complete_) warn_if_late(target_, passes_.elapsed_s(), mean_.mean_samples(), diagnostics_);
   }
 
   AccuracyStatistics statistics() const {

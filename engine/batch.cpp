@@ -78,7 +78,7 @@ class Batch::FrameQueue : public SceneSink {
     if (batch_.cancel_) return;
     try {
       tessera::make_shadow(job.picture, job.shadow);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {
       diagnostics_.warn_once(
           "MakeShadow " + job.shadow, job.where,
           fmt::format("MakeShadow: {}; {} is not made", error.what(), job.shadow));
@@ -93,6 +93,17 @@ class Batch::FrameQueue : public SceneSink {
   int frames_read_ = 0, frames_selected_ = 0;
   bool several_ = false;
 };
+
+namespace {
+
+/// What there is to add to the names of a frame's files.
+std::string_view outcome(const FrameResult& frame) {
+  if (frame.complete) return "";
+  return frame.whole ? " (interrupted: fewer samples than it would have)"
+                     : " (interrupted: finished buckets only)";
+}
+
+}  // namespace
 
 Batch::Batch(const BatchRequest& request, Console& console, const std::atomic<bool>& cancel)
     : request_(request),
@@ -153,6 +164,7 @@ void Batch::run_frame(const SceneFile& file, const Scene& scene, bool several,
     claim(files);
     if (skip(files, label)) return;
     for (const std::string& name : files.all()) check_writable(name);
+    check_formats(files, scene);
     render(scene, files, label, diagnostics);
   } catch (const std::exception& error) {
     fail(label, error.what());
@@ -166,7 +178,7 @@ void Batch::render(const Scene& scene, const FrameFiles& files, const std::strin
     ~ProgressGuard() { console.end_progress(); }
   };
   FrameControl control;
-  control.progress = [this](int done, int total) { console_.progress(done, total); };
+  control.progress = [this](const FrameProgress& progress) { console_.progress(progress); };
   control.cancel = &cancel_;
   const FrameResult frame = [&] {
     const ProgressGuard guard{console_};
@@ -176,7 +188,7 @@ void Batch::render(const Scene& scene, const FrameFiles& files, const std::strin
 
   std::vector<std::string> written = files.images;
   if (files.from_displays) {
-    written = write_displays(frame, scene, diagnostics);
+    written = write_displays(frame, scene);
   } else {
     write_frame(frame, files.images.front());
   }
@@ -194,8 +206,7 @@ void Batch::render(const Scene& scene, const FrameFiles& files, const std::strin
     written.push_back(files.statistics);
   }
   if (frame.complete) ++result_.rendered;
-  console_.print(fmt::format("{} -> {}{}", label, fmt::join(written, ", "),
-                             frame.complete ? "" : " (interrupted: finished buckets only)"));
+  console_.print(fmt::format("{} -> {}{}", label, fmt::join(written, ", "), outcome(frame)));
   console_.print(console_.verbose() ? frame.statistics.report() : frame.statistics.summary());
 }
 
@@ -253,14 +264,20 @@ FrameFiles Batch::name_files(const SceneFile& file, int number, bool several) co
 }
 
 void Batch::claim(const FrameFiles& files) {
+  std::set<std::string> of_frame;
   for (const std::string& name : files.all()) {
-    if (!names_claimed_.insert(std::filesystem::path(name).lexically_normal().string()).second) {
+    const std::string path = std::filesystem::path(name).lexically_normal().string();
+    if (!of_frame.insert(path).second)
+      throw Error(fmt::format(
+          "{} is named twice by this frame; expected a name of its own for each of its files",
+          name));
+    if (names_claimed_.contains(path))
       throw Error(
           fmt::format("{} was already written by an earlier frame; expected a name of its "
                       "own, as with -o NAME.####.exr",
                       name));
-    }
   }
+  names_claimed_.merge(of_frame);
 }
 
 }  // namespace tessera

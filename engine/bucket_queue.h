@@ -13,8 +13,11 @@ namespace tessera {
 /// Hands out buckets row by row, so that the film and the grids hold a narrow front of the frame.
 class BucketQueue {
  public:
-  BucketQueue(const BucketLayout& buckets, const FrameControl& control)
-      : buckets_(buckets), control_(control) {}
+  /// `pass` of `passes` as in FrameProgress.
+  BucketQueue(const BucketLayout& buckets, const FrameControl& control, int pass, int passes)
+      : buckets_(buckets), control_(control), progress_{pass, passes, 0, buckets.count()} {
+    if (control_.progress) control_.progress(progress_);
+  }
 
   /// False when none is left or the frame is cancelled.
   bool take(int& i, int& j) {
@@ -26,19 +29,19 @@ class BucketQueue {
   }
   void done() {
     std::lock_guard lock(mutex_);
-    ++finished_;
-    if (control_.progress) control_.progress(finished_, buckets_.count());
+    ++progress_.buckets_done;
+    if (control_.progress) control_.progress(progress_);
   }
   /// No further bucket is handed out.
   void stop() { next_ = buckets_.count(); }
-  bool complete() const { return finished_ == buckets_.count(); }
+  bool complete() const { return progress_.buckets_done == progress_.buckets_total; }
 
  private:
   const BucketLayout& buckets_;
   const FrameControl& control_;
   std::atomic<int> next_{0};
   std::mutex mutex_;
-  int finished_ = 0;
+  FrameProgress progress_;
 };
 
 /// Renders every bucket on `threads` workers. An exception in one of them reaches the caller after

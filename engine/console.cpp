@@ -1,9 +1,9 @@
 #include "engine/console.h"
 
+#include <string_view>
+
 #include <sys/ioctl.h>
 #include <unistd.h>
-
-#include <fmt/format.h>
 
 namespace tessera {
 namespace {
@@ -14,16 +14,22 @@ int terminal_columns(int descriptor) {
   return 80;
 }
 
+/// What cannot be written is lost: no reason to give up a render. The stream remembers that it
+/// failed, and main() looks.
+void put(std::FILE* stream, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+}
+
 }  // namespace
 
 Console::Console(Verbosity verbosity) : verbosity_(verbosity), terminal_(isatty(STDERR_FILENO)) {}
 
 void Console::write(std::FILE* stream, const std::string& text) {
   const std::lock_guard lock(mutex_);
-  if (!bar_.empty()) fmt::print(stderr, "{}", clear_progress_bar);
-  fmt::print(stream, "{}\n", text);
+  if (!bar_.empty()) put(stderr, clear_progress_bar);
+  put(stream, text + "\n");
   std::fflush(stream);
-  if (!bar_.empty()) fmt::print(stderr, "{}", bar_);
+  if (!bar_.empty()) put(stderr, bar_);
 }
 
 void Console::print(const std::string& line) {
@@ -43,20 +49,20 @@ void Console::begin_progress(const std::string& label) {
   progress_start_ = Clock::now();
 }
 
-void Console::progress(int done, int total) {
+void Console::progress(const FrameProgress& progress) {
   const std::lock_guard lock(mutex_);
   if (!meter_) return;
   const std::chrono::duration<double> elapsed = Clock::now() - progress_start_;
-  const std::optional<std::string> text = meter_->update(done, total, elapsed.count());
+  const std::optional<std::string> text = meter_->update(progress, elapsed.count());
   if (!text) return;
-  fmt::print(stderr, "{}", *text);
+  put(stderr, *text);
   std::fflush(stderr);
   if (terminal_) bar_ = *text;
 }
 
 void Console::end_progress() {
   const std::lock_guard lock(mutex_);
-  if (!bar_.empty()) fmt::print(stderr, "{}", clear_progress_bar);
+  if (!bar_.empty()) put(stderr, clear_progress_bar);
   bar_.clear();
   meter_.reset();
 }

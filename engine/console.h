@@ -15,7 +15,7 @@ namespace tessera {
 enum class Verbosity { quiet, normal, verbose };
 
 /// Thread safe. Results go to standard output, everything else to standard error. A line is given
-/// without its line end.
+/// without its line end. Streams that are full or closed are no error here.
 class Console {
  public:
   explicit Console(Verbosity verbosity);
@@ -29,9 +29,9 @@ class Console {
   /// "error: LINE", always.
   void error(const std::string& line);
 
-  /// Starts a progress bar; nothing when quiet. The clock starts here.
+  /// Starts a progress bar; nothing when quiet.
   void begin_progress(const std::string& label);
-  void progress(int done, int total);
+  void progress(const FrameProgress& progress);
   void end_progress();
 
  private:

@@ -1,10 +1,13 @@
 #include "engine/frame.h"
 
+#include <tbb/global_control.h>
+
+#include "engine/accuracy_target.h"
 #include "engine/accurate_frame.h"
 #include "engine/frame_passes.h"
+#include "engine/frame_setup.h"
 #include "engine/overrides.h"
 #include "engine/qualities.h"
-#include "engine/round_planner.h"
 #include "engine/timed_frame.h"
 
 namespace tessera {
@@ -14,6 +17,9 @@ FrameResult render_frame(const Scene& scene, const Settings& asked, Diagnostics&
   const Settings settings = with_quality(asked);
   const AccuracyTarget target = accuracy_target(settings);
   const bool several = target.several_passes();
+  // More than there are cores only come if they are allowed.
+  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                    size_t(thread_count(settings)));
   FramePasses passes(scene, settings, diagnostics, control, several);
   if (target.even_passes()) return render_within_time(passes, settings, diagnostics);
   if (several) return render_accurate(passes, settings, diagnostics);

@@ -9,6 +9,7 @@
 
 #include "base/diagnostics.h"
 #include "engine/plan.h"
+#include "engine/progress.h"
 #include "engine/settings.h"
 #include "engine/statistics.h"
 #include "images/image.h"
@@ -18,9 +19,9 @@
 namespace tessera {
 
 /// How a frame tells how far it is and learns that it should stop. Called from worker threads, one
-/// at a time.
+/// at a time: when a pass begins, and for each bucket that is done.
 struct FrameControl {
-  std::function<void(int buckets_done, int buckets_total)> progress;
+  std::function<void(const FrameProgress& progress)> progress;
   const std::atomic<bool>* cancel = nullptr;  ///< when it turns true no further bucket is started
   /// Makes what shades the frame, in place of make_shading(). For measuring. With one thread its
   /// shade() sees the buckets in raster order.
@@ -37,7 +38,10 @@ struct FrameResult {
   Statistics statistics;
   std::string heatmap;           ///< name of the heat map among the channels; empty: none
   bool display_encoded = false;  ///< the scene's Exposure has a gamma: colours are not linear
-  bool complete = true;  ///< false after a cancellation: missing buckets are black and transparent
+  bool complete = true;          ///< false after a cancellation
+  /// Whether no bucket is missing; missing ones are black and transparent. A frame of several
+  /// passes that was cancelled is whole if one of them was, but has fewer samples than asked for.
+  bool whole = true;
 };
 
 /// Renders one frame. The image is the same bit for bit for any thread count and bucket size.

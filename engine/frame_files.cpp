@@ -11,6 +11,8 @@
 #include "base/error.h"
 #include "images/atomic_file.h"
 #include "images/exr.h"
+#include "images/file_kinds.h"
+#include "images/image_module.h"
 
 namespace tessera {
 
@@ -24,18 +26,24 @@ std::vector<std::string> FrameFiles::all() const {
   return names;
 }
 
+bool is_interrupted(const Image& image) {
+  const auto value = [&](const char* name) {
+    const auto found = image.metadata.find(name);
+    return found == image.metadata.end() ? std::string() : found->second;
+  };
+  return value(complete_attribute).starts_with("no") ||
+         value(description_attribute) == interrupted_description;
+}
+
 bool is_finished_image(const std::string& path) {
   std::error_code ignored;
-  const auto size = fs::file_size(path, ignored);
-  if (ignored || size == 0) return false;
-  if (fs::path(path).extension() != ".exr") return true;
+  if (!fs::is_regular_file(path, ignored)) return false;
   try {
-    // The whole file: a truncated one has a sound header.
-    const Image image = read_exr(path);
-    const auto complete = image.metadata.find(complete_attribute);
-    return complete == image.metadata.end() || !complete->second.starts_with("no");
+    // The whole file: a truncated one has a sound header. Depth files are EXR under any name.
+    const Image image = holds_exr(path) ? read_exr(path) : load_image_module()->read_image(path);
+    return !is_interrupted(image);
   } catch (const Error&) {
-    return false;  // not a sound EXR whatever its name says: to be rendered again
+    return false;  // no sound image whatever its name says: to be rendered again
   }
 }
 

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "images/image.h"
+
 namespace tessera {
 
 /// The files of one frame. Empty names: not wanted.
@@ -16,12 +18,19 @@ struct FrameFiles {
   std::vector<std::string> all() const;
 };
 
-/// Image attribute that begins with "no" when the frame was interrupted; engine/outputs.cpp sets
-/// it.
+/// Image attribute that begins with "no" when the frame was interrupted, set with the frame's other
+/// metadata.
 inline constexpr const char* complete_attribute = "tessera:complete";
+/// What says the same in formats that keep no attributes but those they know, as JPEG.
+inline constexpr const char* description_attribute = "ImageDescription";
+inline constexpr const char* interrupted_description = "interrupted: not a whole frame";
 
-/// Whether `path` holds an image that needs no more work: an EXR that can be read to
-/// its end and is not marked as interrupted; any other kind of file that exists and is not empty.
+/// Whether an image says by either attribute that its frame was interrupted.
+bool is_interrupted(const Image& image);
+
+/// Whether `path` holds an image that needs no more work: one that can be read to its end, whatever
+/// its format, and is not marked as interrupted. Readers of JPEG and TIFF take parts of files, too;
+/// but none are left behind, as all are written through a temporary name.
 bool is_finished_image(const std::string& path);
 
 /// Throws Error unless a file can be made at `path`: its folder exists and can be written, and it

@@ -8,6 +8,7 @@
 
 #include "cameras/camera_matrices.h"
 #include "engine/bucket_queue.h"
+#include "engine/frame_files.h"
 #include "engine/overrides.h"
 #include "engine/version.h"
 #include "reconstruct/exposure.h"
@@ -26,7 +27,7 @@ void add_metadata(FrameResult& frame, const Scene& scene) {
   metadata["software"] = fmt::format("Tessera {}", version);
   metadata["tessera:scene"] = scene.file;
   metadata["tessera:frame"] = std::to_string(scene.frame_number);
-  metadata["tessera:complete"] = frame.complete ? "yes" : "no, cancelled";
+  metadata[complete_attribute] = frame.complete ? "yes" : "no, cancelled";
   metadata["tessera:summary"] = frame.statistics.summary();
   for (const auto& [name, value] : frame.statistics.plan) metadata["tessera:plan:" + name] = value;
   for (const auto& [name, value] : frame.statistics.options)
@@ -112,15 +113,19 @@ FramePasses::FramePasses(const Scene& scene, const Settings& settings, Diagnosti
   shading_ = control.make_shading ? control.make_shading(plan_.shading, shaded)
                                   : make_shading(plan_.shading, shaded);
   if (settings.heatmap) heatmap_.emplace(find_heatmap(*settings.heatmap), camera_.crop());
-  if (scene_.surfaces.empty()) return;
+  if (!scene_.surfaces.empty()) set_up_surfaces();
+  statistics_.setup_done();
+}
+
+void FramePasses::set_up_surfaces() {
   if (plan_.displacement) displacer_ = make_displacer(bindings_);
-  const DiceSettings dice = dice_settings(plan_, buckets_, settings, displacer_.get(), bindings_);
-  grids_ = make_grid_source(scene_, camera_, dice, diagnostics);
-  if (const auto rays = ray_tracer(plan_, scene_, camera_, settings, dice, threads_, diagnostics)) {
+  const DiceSettings dice = dice_settings(plan_, buckets_, settings_, displacer_.get(), bindings_);
+  grids_ = make_grid_source(scene_, camera_, dice, diagnostics_);
+  if (const auto rays =
+          ray_tracer(plan_, scene_, camera_, settings_, dice, threads_, diagnostics_)) {
     use_rays(*bindings_, rays);
     statistics_.add(*rays);
   }
-  statistics_.setup_done();
 }
 
 const ShutterProfile* FramePasses::shutter() const {
@@ -129,6 +134,12 @@ const ShutterProfile* FramePasses::shutter() const {
 
 const LensProfile* FramePasses::lens() const {
   return plan_.lens ? &camera_.lens_profile() : nullptr;
+}
+
+int FramePasses::known_passes() const {
+  if (!settings_.rounds.empty()) return 2 * int(settings_.rounds.size());
+  if (!settings_.passes.empty()) return int(settings_.passes.size());
+  return several_ ? 0 : 1;
 }
 
 bool FramePasses::adaptive() const { return plan_.sample_tuples.kind == SampleTuples::Kind::free; }
@@ -185,7 +196,7 @@ PassResult FramePasses::render(const Samples& samples) {
                            samples.levels,
                            several_,
                            heatmap_ ? &*heatmap_ : nullptr};
-    BucketQueue queue(buckets_, control_);
+    BucketQueue queue(buckets_, control_, ++pass_count_, known_passes());
     render_buckets(parts, threads_, queue, statistics_);
     result.complete = queue.complete();
   }
@@ -195,9 +206,10 @@ PassResult FramePasses::render(const Samples& samples) {
   return result;
 }
 
-FrameResult FramePasses::finish(PassResult&& pass, AccuracyStatistics&& accuracy) {
+FrameResult FramePasses::finish(PassResult&& pass, AccuracyStatistics&& accuracy, bool cancelled) {
   FrameResult result;
-  result.complete = pass.complete;
+  result.whole = pass.complete;
+  result.complete = pass.complete && !cancelled;
   result.image = std::move(pass.image);
   const float gamma = scene_.options.exposure_gamma;
   result.display_encoded = gamma != 1.0f;

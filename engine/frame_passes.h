@@ -21,7 +21,7 @@ struct PassResult {
   /// R, G and B by the pixel filter alone; only where a method for distribution effects made
   /// `image`.
   std::optional<Image> plain;
-  bool complete = true;  ///< false after a cancellation
+  bool complete = true;  ///< false after a cancellation: buckets are missing
 };
 
 class FramePasses {
@@ -53,8 +53,9 @@ class FramePasses {
   /// are independent.
   PassResult render(const SampleAllocation& allocation, uint32_t seed);
 
-  /// Once, after the last pass. `accuracy`: what is known of how near the image is.
-  FrameResult finish(PassResult&& pass, AccuracyStatistics&& accuracy = {});
+  /// Once, after the last pass. `accuracy`: what is known of how near the image is. `cancelled`:
+  /// there would have been more passes.
+  FrameResult finish(PassResult&& pass, AccuracyStatistics&& accuracy = {}, bool cancelled = false);
 
  private:
   struct Samples {
@@ -63,9 +64,11 @@ class FramePasses {
     const SampleAllocation* allocation = nullptr;
     const LevelPatterns* levels = nullptr;
   };
+  void set_up_surfaces();
   PassResult render(const Samples& samples);
   const ShutterProfile* shutter() const;
   const LensProfile* lens() const;
+  int known_passes() const;  // 0: how many there will be is not known
   SampleExtras extras() const { return {plan_.area_lights, plan_.bounce}; }
 
   FrameStatistics statistics_;  // starts the frame's clock
@@ -86,6 +89,7 @@ class FramePasses {
   std::unique_ptr<Displacer> displacer_;
   std::unique_ptr<GridSource> grids_;  // null: nothing to see
   std::optional<Heatmap> heatmap_;
+  int pass_count_ = 0;  // begun
 };
 
 /// Seconds that writing the frame may take, at the most that is to be expected.

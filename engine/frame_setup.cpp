@@ -1,11 +1,13 @@
 #include "engine/frame_setup.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <thread>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "engine/limits.h"
 #include "engine/sample_spreads.h"
 #include "images/image_module.h"
 #include "reconstruct/pixel_filter.h"
@@ -108,9 +110,12 @@ ReconstructionSettings reconstruction_settings(const FramePlan& plan, const Buck
 }
 
 int thread_count(const Settings& settings) {
-  if (settings.threads < 0 || settings.threads > 1024)
-    throw Error(fmt::format("threads must lie between 0 and 1024, found {}", settings.threads));
-  return settings.threads > 0 ? settings.threads : int(std::thread::hardware_concurrency());
+  if (settings.threads < 0 || settings.threads > max_threads)
+    throw Error(
+        fmt::format("threads must lie between 0 and {}, found {}", max_threads, settings.threads));
+  // The library may not know how many cores there are, and then says 0.
+  const int cores = std::max(1, int(std::thread::hardware_concurrency()));
+  return settings.threads > 0 ? settings.threads : cores;
 }
 
 }  // namespace tessera

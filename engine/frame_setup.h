@@ -40,7 +40,7 @@ ReconstructionSettings reconstruction_settings(const FramePlan& plan, const Buck
                                                float exposure_gain, float exposure_gamma,
                                                int threads);
 
-/// Settings::threads, or every core. Throws Error outside 0 to 1024.
+/// Settings::threads, or every core. Throws Error outside 0 to max_threads.
 int thread_count(const Settings& settings);
 
 }  // namespace tessera

@@ -59,6 +59,15 @@ std::vector<std::pair<std::string, std::string>> options_in_force(const Scene& s
   return options;
 }
 
+std::string why_empty(const HeatmapDefinition& map, const FramePlan& plan) {
+  if (map.extra())
+    return fmt::format("no pixel takes more samples than the others: the heat map '{}' is empty",
+                       map.name);
+  const auto& [kind, method] =
+      map.hide_counts ? std::pair("hider", plan.hider) : std::pair("shading mode", plan.shading);
+  return fmt::format("the {} {} does not fill the heat map '{}'", kind, method, map.name);
+}
+
 }  // namespace
 
 void FrameStatistics::add(const BucketRenderer& worker) {
@@ -85,8 +94,7 @@ void FrameStatistics::add(const HeatmapScale& scale, const Heatmap& map, const F
   const std::string name = map.definition().name;
   heatmap_ = {{name + "_min", scale.min}, {name + "_max", scale.max}, {name + "_mean", scale.mean}};
   if (!map.filled() && hide_.samples_tested > 0)
-    diagnostics.warn_once(
-        "heat map", fmt::format("the hider {} does not fill the heat map '{}'", plan.hider, name));
+    diagnostics.warn_once("heat map", why_empty(map.definition(), plan));
 }
 
 Statistics FrameStatistics::finish(const FramePlan& plan, const Scene& scene,

@@ -10,7 +10,8 @@
 
 namespace tessera {
 
-/// Starts the clock when constructed. add() is thread safe.
+/// Starts the clock when constructed. Workers may be added from several threads at once, the rest
+/// by one thread while no worker runs.
 class FrameStatistics {
  public:
   void setup_done() { setup_s_ = elapsed_s(); }
@@ -18,7 +19,7 @@ class FrameStatistics {
   void add(const GridSource& grids);
   void add(const Reconstruction& reconstruction);
   void add(const RayTracer& rays) { ray_bytes_ = rays.memory_bytes(); }
-  /// The last to be added. Warns if the map is empty because the plan's methods do not fill it.
+  /// The last to be added. Warns if the map is empty, and says why.
   void add(const HeatmapScale& scale, const Heatmap& map, const FramePlan& plan,
            Diagnostics& diagnostics);
 

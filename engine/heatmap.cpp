@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "base/find_named.h"
 #include "images/preview.h"
 
 namespace tessera {
@@ -18,7 +18,9 @@ constexpr HeatmapDefinition definitions[] = {
     {"shading",
      "points shaded in each pixel: where they lie at shutter open, or (pixel, sample) are seen",
      "points per pixel", nullptr, &ShadeInput::shaded_at},
-    {"extra", "samples of each pixel besides those that all have: where the focal plane is in it",
+    {"extra",
+     "samples of each pixel besides those that all have, where the focal plane is in it; with "
+     "--error all its samples",
      "samples per pixel", nullptr, nullptr},
 };
 
@@ -40,12 +42,7 @@ const std::vector<float>& values_of(const Image& image, std::string_view name) {
 std::span<const HeatmapDefinition> heatmap_registry() { return definitions; }
 
 const HeatmapDefinition& find_heatmap(std::string_view name) {
-  std::string choices;
-  for (const HeatmapDefinition& definition : definitions) {
-    if (name == definition.name) return definition;
-    choices += fmt::format("{}{}", choices.empty() ? "" : ", ", definition.name);
-  }
-  throw Error(fmt::format("heat map '{}' is unknown; expected one of {}", name, choices));
+  return find_named(definitions, "heat map", name);
 }
 
 Heatmap::Heatmap(const HeatmapDefinition& definition, const PixelRect& pixels)

@@ -2,7 +2,9 @@
 
 #include <cerrno>
 #include <cstdint>
+#include <system_error>
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <pthread.h>
 #include <sys/eventfd.h>
@@ -25,9 +27,15 @@ InterruptWatch::InterruptWatch() {
   signal_descriptor_ = signalfd(-1, &signals_, SFD_CLOEXEC);
   stop_descriptor_ = eventfd(0, EFD_CLOEXEC);
   if (signal_descriptor_ < 0 || stop_descriptor_ < 0) {
+    release();
     throw Error("cannot watch for Ctrl-C: the system gives no descriptor for signals");
   }
-  thread_ = std::thread([this] { watch(); });
+  try {
+    thread_ = std::thread([this] { watch(); });
+  } catch (const std::system_error& error) {
+    release();
+    throw Error(fmt::format("cannot watch for Ctrl-C: {}", error.what()));
+  }
 }
 
 InterruptWatch::~InterruptWatch() {
@@ -35,8 +43,12 @@ InterruptWatch::~InterruptWatch() {
   // The counter cannot overflow, so the write cannot fail.
   [[maybe_unused]] const ssize_t written = write(stop_descriptor_, &one, sizeof one);
   thread_.join();
-  close(signal_descriptor_);
-  close(stop_descriptor_);
+  release();
+}
+
+void InterruptWatch::release() {
+  for (const int descriptor : {signal_descriptor_, stop_descriptor_})
+    if (descriptor >= 0) close(descriptor);
   pthread_sigmask(SIG_SETMASK, &previous_mask_, nullptr);
 }
 

@@ -22,6 +22,7 @@ class InterruptWatch {
 
  private:
   void watch();
+  void release();  // the descriptors, and the signals as they were
 
   std::atomic<bool> interrupted_{false};
   sigset_t signals_, previous_mask_;

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "engine/command.h"
 #include "engine/version.h"
@@ -25,8 +27,24 @@ std::string failure_message(const CLI::App* app, const CLI::Error& error) {
 }
 
 int report(ExitCode code, std::string_view message) {
-  fmt::print(stderr, "error: {}\n", message);
+  std::fputs(fmt::format("error: {}\n", message).c_str(), stderr);  // throws nothing if it fails
   return code;
+}
+
+/// Standard streams that are closed would give their descriptors to the first files that are
+/// opened, and what is printed would end up in these. Opened the wrong way round, they still fail.
+void reserve_standard_descriptors() {
+  for (int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(descriptor, F_GETFD) < 0)
+      // The lowest that is free is the one that is closed.
+      (void)open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+/// Results that were asked for and got lost are a failure.
+int after_writing(int code) {
+  if ((std::fflush(stdout) == 0 && !std::ferror(stdout)) || code != exit_success) return code;
+  return report(exit_failure,
+                "standard output is full or closed; what was printed is not complete");
 }
 
 /// Runs a parsed command.
@@ -45,6 +63,7 @@ int run_command(const std::function<int()>& run) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  reserve_standard_descriptors();
   CLI::App app("Tessera renders film-style frames from scene files.", "tessera");
   app.require_subcommand(1);
   app.failure_message(failure_message);
@@ -59,7 +78,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_success : exit_usage;
+    return after_writing(app.exit(error) == 0 ? exit_success : exit_usage);
   }
-  return run_command(run);
+  return after_writing(run_command(run));
 }

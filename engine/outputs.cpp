@@ -1,13 +1,15 @@
 #include "engine/outputs.h"
 
-#include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "engine/heatmap.h"
 #include "images/exr.h"
+#include "images/file_kinds.h"
 #include "images/image_module.h"
 #include "images/preview.h"
 #include "shade/shade.h"
@@ -15,15 +17,6 @@
 
 namespace tessera {
 namespace {
-
-std::string lower_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return extension;
-}
-
-bool is_exr(const std::string& path) { return lower_extension(path) == ".exr"; }
 
 /// Displays of interactive windows have no place in a batch.
 bool is_file(const Display& display) {
@@ -46,31 +39,14 @@ std::string display_path(const Display& display) {
 std::vector<std::string> mode_channels(const Display& display) {
   for (const AovDefinition& group : aov_registry())
     if (display.mode == group.name) return group.channels;
+  constexpr std::string_view letters = "rgbaz";
+  if (display.mode.empty() || display.mode.find_first_not_of(letters) != std::string::npos)
+    throw Error(display.where,
+                fmt::format("Display mode '{}': expected letters of {} or the name of an auxiliary "
+                            "channel group",
+                            display.mode, letters));
   std::vector<std::string> channels;
-  for (char letter : display.mode) {
-    switch (letter) {
-      case 'r':
-        channels.push_back("R");
-        break;
-      case 'g':
-        channels.push_back("G");
-        break;
-      case 'b':
-        channels.push_back("B");
-        break;
-      case 'a':
-        channels.push_back("A");
-        break;
-      case 'z':
-        channels.push_back("Z");
-        break;
-      default:
-        throw Error(display.where,
-                    fmt::format("Display mode '{}': expected letters of rgbaz or the name of an "
-                                "auxiliary channel group",
-                                display.mode));
-    }
-  }
+  for (const char letter : display.mode) channels.emplace_back(1, char(std::toupper(letter)));
   return channels;
 }
 
@@ -93,11 +69,6 @@ void decode_colours(Image& image) {
       for (float& value : channel.values) value = linear_from_srgb(value);
 }
 
-bool is_8_bit(const std::string& path) {
-  const std::string extension = lower_extension(path);
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
-}
-
 /// "cell.R" is R in a file that holds nothing else.
 void drop_group_names(Image& image) {
   for (Image::Channel& channel : image.channels)
@@ -108,14 +79,26 @@ void drop_group_names(Image& image) {
 /// Writes through the image module: formats other than EXR.
 void write_other(Image image, const std::string& path, bool display_encoded) {
   drop_group_names(image);
-  if (display_encoded && is_8_bit(path)) decode_colours(image);
+  if (display_encoded && named_8_bit(path)) decode_colours(image);
+  if (is_interrupted(image)) image.metadata[description_attribute] = interrupted_description;
   load_image_module()->write_image(path, image);
 }
 
 }  // namespace
 
+void check_formats(const FrameFiles& files, const Scene& scene) {
+  if (!files.from_displays) check_format(files.images.front());
+  if (!files.preview.empty()) check_format(files.preview);
+  if (!files.from_displays) return;
+  for (const Display& display : scene.displays) {
+    if (!is_file(display)) continue;
+    mode_channels(display);
+    if (!is_depth_file(display)) check_format(display_path(display));
+  }
+}
+
 void write_frame(const FrameResult& frame, const std::string& path) {
-  if (is_exr(path)) return write_exr(path, frame.image);
+  if (named_exr(path)) return write_exr(path, frame.image);
   // Formats other than EXR hold one picture.
   write_other(with_channels(frame.image, {"R", "G", "B", "A"}), path, frame.display_encoded);
 }
@@ -128,23 +111,16 @@ std::vector<std::string> display_outputs(const Scene& scene) {
   return paths;
 }
 
-std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene,
-                                        Diagnostics& diagnostics) {
+std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene) {
   std::vector<std::string> written;
   for (const Display& display : scene.displays) {
     if (!is_file(display)) continue;
+    const std::string path = display_path(display);
     std::vector<std::string> channels = mode_channels(display);
-    if (!frame.heatmap.empty() && is_exr(display_path(display)) && !is_depth_file(display))
+    if (!frame.heatmap.empty() && named_exr(path) && !is_depth_file(display))
       channels.push_back(heatmap_channel(frame.heatmap));
     Image image = with_channels(frame.image, channels);
-    if (image.channels.empty()) {
-      diagnostics.warn_once("display " + display.file, display.where,
-                            fmt::format("Display mode '{}' names no channel; '{}' is not written",
-                                        display.mode, display.file));
-      continue;
-    }
-    const std::string path = display_path(display);
-    if (is_depth_file(display) || is_exr(path))
+    if (is_depth_file(display) || named_exr(path))
       write_exr(path, image);
     else
       write_other(std::move(image), path, frame.display_encoded);
@@ -169,7 +145,7 @@ void make_shadow(const std::string& picture, const std::string& shadow) {
 
 void write_preview(const FrameResult& frame, const std::string& path) {
   Image picture = with_channels(frame.image, {"R", "G", "B"});
-  if (is_exr(path)) return write_exr(path, picture);
+  if (named_exr(path)) return write_exr(path, picture);
   write_other(std::move(picture), path, frame.display_encoded);
 }
 

@@ -6,8 +6,13 @@
 #include <vector>
 
 #include "engine/frame.h"
+#include "engine/frame_files.h"
 
 namespace tessera {
+
+/// Throws Error when one of a frame's files has a name of no format, or its Display a mode that is
+/// none. Called before rendering.
+void check_formats(const FrameFiles& files, const Scene& scene);
 
 /// Writes every channel of the frame to `path` (EXR through a temporary name; other extensions
 /// through the image module).
@@ -19,8 +24,7 @@ std::vector<std::string> display_outputs(const Scene& scene);
 
 /// Writes the frame to display_outputs(), each with the channels its Display asks for. Returns
 /// the names written.
-std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene,
-                                        Diagnostics& diagnostics);
+std::vector<std::string> write_displays(const FrameResult& frame, const Scene& scene);
 
 /// Writes the depth file `picture` again as shadow map `shadow`, through a temporary name. Throws
 /// Error when it cannot be read or lacks what a shadow map needs (shade/shadow_map.h).

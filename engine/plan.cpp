@@ -8,15 +8,13 @@
 
 #include "base/error.h"
 #include "dice/dice.h"
+#include "engine/accuracy_target.h"
+#include "engine/limits.h"
 #include "hide/hide.h"
 #include "shade/shade.h"
 
 namespace tessera {
 namespace {
-
-/// Largest bucket side; beyond it a bucket's samples outgrow any cache for no gain.
-constexpr int max_bucket_size = 4096;
-constexpr int max_grid_size = 256;
 
 bool shutter_opens(const CameraSettings& camera) {
   return camera.shutter_close > camera.shutter_open;
@@ -26,11 +24,21 @@ bool surface_moves(const Surface& surface) {
   return surface.world_from_object.moves() || surface.geometry->key_times.size() > 1;
 }
 
+/// Shadow maps are no textures: they are read without the image library.
 bool names_a_texture(const ShaderCall& shader) {
   return std::any_of(shader.parameters.begin(), shader.parameters.end(), [](const Parameter& p) {
     return p.type == ValueType::string && p.name.find("name") != std::string::npos &&
-           !p.strings.empty() && !p.strings.front().empty();
+           p.name != "shadowname" && !p.strings.empty() && !p.strings.front().empty();
   });
+}
+
+/// Of its shaders and of the lights that shine on it.
+bool uses_textures(const Attributes& attributes, const Scene& scene) {
+  return (attributes.surface && names_a_texture(*attributes.surface)) ||
+         (attributes.displacement && names_a_texture(*attributes.displacement)) ||
+         std::ranges::any_of(attributes.lights, [&](int light) {
+           return names_a_texture(scene.lights[size_t(light)].shader);
+         });
 }
 
 int checked(const char* what, int value, int low, int high) {
@@ -87,12 +95,21 @@ void set_needs(FramePlan& plan, const Scene& scene, const CameraSettings& camera
     if (surface.attributes.get() == last) continue;
     last = surface.attributes.get();
     plan.displacement = plan.displacement || last->displacement.has_value();
-    plan.textures = plan.textures || (last->surface && names_a_texture(*last->surface)) ||
-                    (last->displacement && names_a_texture(*last->displacement));
+    plan.textures = plan.textures || uses_textures(*last, scene);
   }
   plan.area_lights = has_effect(bindings, RayEffect::shadow);
   plan.bounce = has_effect(bindings, RayEffect::bounce);
   plan.ray_tracing = wants_rays(bindings) && !scene.surfaces.empty();
+}
+
+/// Where they are not those of the plan; empty: they are.
+std::string describe_samples(const AccuracyTarget& target) {
+  if (!target.rounds.empty() || !target.passes.empty()) return "those of the frame repeated";
+  if (!target.several_passes()) return "";
+  const char* takes = !target.time_s ? "an error takes"
+                      : target.error ? "an error or a time takes"
+                                     : "a time takes";
+  return fmt::format("as many as {}, up to {}", takes, target.max_samples);
 }
 
 /// A frame without distribution effects goes through no filter for them, whatever was asked for.
@@ -104,11 +121,13 @@ void set_reconstruction(FramePlan& plan, const Settings& settings) {
   reconstruction_reach(asked);  // throws when there is no such method
   if (!plan.distribution().any()) return;
   plan.reconstruct = asked;
-  // Hiders that prescribe the samples have no use for more of them in some pixels.
-  const bool free_samples = plan.sample_tuples.kind == SampleTuples::Kind::free;
+  // Hiders that prescribe the samples have no use for more of them in some pixels, and an error has
+  // its own way to find these.
+  const bool free_samples = plan.sample_tuples.kind == SampleTuples::Kind::free &&
+                            !settings.error && settings.rounds.empty();
   if (plan.lens && plan.filters_distribution() && free_samples)
-    plan.extra_samples =
-        checked("extra samples", settings.extra_samples.value_or(most_extra_samples), 0, 4096);
+    plan.extra_samples = checked(
+        "extra samples", settings.extra_samples.value_or(most_extra_samples), 0, max_extra_samples);
 }
 
 /// Of the whole frame: the most over its surfaces, so that nobody takes micropolygons for smaller
@@ -133,15 +152,19 @@ FramePlan make_plan(const Scene& scene, const CameraSettings& camera, const Sett
   const SceneOptions& options = scene.options;
   // Checked as a product in long: two large counts in a scene file must not overflow.
   const long scene_samples = long(options.x_samples) * long(options.y_samples);
-  plan.samples_per_pixel = checked(
-      "samples per pixel",
-      settings.samples_per_pixel.value_or(int(std::min(scene_samples, 1L << 30))), 1, 65536);
+  plan.samples_per_pixel =
+      checked("samples per pixel",
+              settings.samples_per_pixel.value_or(int(std::min(scene_samples, 1L << 30))), 1,
+              max_samples_per_pixel);
+  plan.samples_found = describe_samples(accuracy_target(settings));
   plan.bucket_size = checked(
       "bucket size", settings.bucket_size.value_or(options.bucket_size.value_or(plan.bucket_size)),
       1, max_bucket_size);
   plan.grid_size =
       checked("grid size", settings.grid_size.value_or(plan.grid_size), 1, max_grid_size);
   plan.dicing_ratio = dicing_ratio(scene, settings);
+  plan.motion_factor = settings.motion_factor.value_or(plan.motion_factor);
+  plan.focus_factor = settings.focus_factor.value_or(plan.focus_factor);
   if (settings.hider) plan.hider = *settings.hider;
   plan.sample_tuples = make_hider(plan.hider)->sample_tuples(plan.samples_per_pixel);
   if (settings.shading) plan.shading = *settings.shading;
@@ -163,7 +186,8 @@ std::vector<std::pair<std::string, std::string>> FramePlan::entries() const {
           {"area_lights", yes(area_lights)},
           {"bounce", yes(bounce)},
           {"ray_tracing", yes(ray_tracing)},
-          {"samples_per_pixel", std::to_string(samples_per_pixel)},
+          {"samples_per_pixel",
+           samples_found.empty() ? std::to_string(samples_per_pixel) : samples_found},
           {"bucket_size", std::to_string(bucket_size)},
           {"grid_size", std::to_string(grid_size)},
           {"dicing_ratio", fmt::format("{}", dicing_ratio)},

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "base/find_named.h"
 
 namespace tessera {
 namespace {
@@ -29,21 +29,12 @@ void complete(std::optional<T>& setting, const std::optional<T>& value) {
   if (!setting) setting = value;
 }
 
-void complete(std::optional<std::string>& setting, const char* value) {
-  if (!setting && value) setting = value;
-}
-
 }  // namespace
 
 std::span<const QualityDefinition> quality_registry() { return definitions; }
 
 const QualityDefinition& find_quality(std::string_view name) {
-  std::string choices;
-  for (const QualityDefinition& definition : definitions) {
-    if (name == definition.name) return definition;
-    choices += fmt::format("{}{}", choices.empty() ? "" : ", ", definition.name);
-  }
-  throw Error(fmt::format("quality '{}' is unknown; expected one of {}", name, choices));
+  return find_named(definitions, "quality", name);
 }
 
 Settings with_quality(const Settings& settings) {
@@ -60,9 +51,6 @@ Settings with_quality(const Settings& settings) {
   complete(result.shading_rate, quality.shading_rate);
   complete(result.dicing_rate, quality.dicing_rate);
   complete(result.extra_samples, quality.extra_samples);
-  complete(result.hider, quality.hider);
-  complete(result.reconstruct, quality.reconstruct);
-  complete(result.texture_filter, quality.texture_filter);
   return result;
 }
 

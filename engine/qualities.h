@@ -20,9 +20,6 @@ struct QualityDefinition {
   std::optional<float> shading_rate;  ///< pixels^2
   std::optional<float> dicing_rate;   ///< pixels^2
   std::optional<int> extra_samples;
-  const char* hider = nullptr;
-  const char* reconstruct = nullptr;
-  const char* texture_filter = nullptr;
 };
 
 std::span<const QualityDefinition> quality_registry();

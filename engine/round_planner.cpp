@@ -4,11 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "base/error.h"
-#include "engine/settings.h"
-
 namespace tessera {
 namespace {
 
@@ -41,41 +36,7 @@ constexpr double time_share_at_first = 0.4;
 /// Share of the time asked for that is not worth another round.
 constexpr double time_left_over = 0.04;
 
-constexpr double max_time_s = 1e7;
-
-void check_above_0(const char* what, double value, double high) {
-  if (!(value > 0) || value > high)
-    throw Error(fmt::format("{} must be above 0 and at most {}, found {}", what, high, value));
-}
-
 }  // namespace
-
-AccuracyTarget accuracy_target(const Settings& settings) {
-  AccuracyTarget target;
-  target.error = settings.error, target.time_s = settings.time_s;
-  if (settings.max_samples) target.max_samples = *settings.max_samples;
-  if (!target.error && !target.time_s && settings.max_samples)
-    throw Error("a limit of the samples needs an error or a time that they are limited for");
-  if (settings.samples_per_pixel && (target.error || target.time_s))
-    throw Error(
-        "samples per pixel are found by the error or the time that is asked for; expected one of "
-        "them, not both");
-  target.rounds = settings.rounds;
-  if (!target.rounds.empty() && (target.error || target.time_s || settings.samples_per_pixel))
-    throw Error("rounds repeat a frame; expected no error, time or samples per pixel besides");
-  target.passes = settings.passes;
-  if (!target.passes.empty() &&
-      (target.error || target.time_s || !target.rounds.empty() || settings.samples_per_pixel))
-    throw Error("passes repeat a frame; expected no error, time, rounds or samples per pixel too");
-  for (const int samples : target.passes) check_above_0("samples of a pass", samples, 65536);
-  for (const double samples : target.rounds) check_above_0("samples of a round", samples, 65536);
-  if (target.error) check_above_0("error", *target.error, 1e6);
-  if (target.time_s) check_above_0("time in seconds", *target.time_s, max_time_s);
-  if (target.max_samples < 2 || target.max_samples > 65536)
-    throw Error(fmt::format("the limit of samples per pixel must lie between 2 and 65536, found {}",
-                            target.max_samples));
-  return target;
-}
 
 RoundPlanner::RoundPlanner(const AccuracyTarget& target, double least_pass_samples,
                            double reserve_s, bool biased)
@@ -102,15 +63,14 @@ std::optional<RoundRequest> RoundPlanner::next(const RoundsSoFar& so_far) {
     end_ = RoundsEnd::repeated;
     return std::nullopt;
   }
-  if (target_.error) {
-    if (so_far.error_squared <= *target_.error * *target_.error) {
-      end_ = RoundsEnd::error_reached;
-      return std::nullopt;
-    }
-    const double wanted = aim * *target_.error * aim * *target_.error;
-    // Inverses of squared errors add up, unless there is bias.
-    request.error_squared = biased_ ? wanted : 1 / (1 / wanted - 1 / so_far.error_squared);
+  const double error = *target_.error;
+  if (so_far.error_squared <= error * error) {
+    end_ = RoundsEnd::error_reached;
+    return std::nullopt;
   }
+  const double wanted = aim * error * aim * error;
+  // Inverses of squared errors add up, unless there is bias.
+  request.error_squared = biased_ ? wanted : 1 / (1 / wanted - 1 / so_far.error_squared);
   const double left = target_.max_samples - so_far.mean_samples;
   const double affordable = affordable_samples(so_far);
   if (std::min(left, affordable) < 2 * least_pass_samples_) {

@@ -1,29 +1,12 @@
 #pragma once
-/// When a frame that is rendered to an error or within a time has had enough, and what the next
-/// round may cost. Knows neither frames nor clocks: it is told what rounds took.
+/// When a frame that is rendered to an error has had enough, and what the next round may cost.
+/// Knows neither frames nor clocks: it is told what rounds took.
 
 #include <optional>
-#include <vector>
+
+#include "engine/accuracy_target.h"
 
 namespace tessera {
-
-struct Settings;
-
-/// What is asked for. Nothing: a frame of one pass.
-struct AccuracyTarget {
-  std::optional<double> error;   ///< root of the relative mean square error; above 0
-  std::optional<double> time_s;  ///< for the whole frame
-  double max_samples = 1024;     ///< mean samples a pixel
-  std::vector<double> rounds;    ///< as Settings::rounds; excludes the others
-  std::vector<int> passes;       ///< as Settings::passes; excludes the others
-
-  /// Passes of even samples, and as many as a time takes.
-  bool even_passes() const { return (time_s && !error) || !passes.empty(); }
-  bool several_passes() const { return error || !rounds.empty() || even_passes(); }
-};
-
-/// What the settings ask for. Throws Error when it makes no sense.
-AccuracyTarget accuracy_target(const Settings& settings);
 
 /// How far the frame is.
 struct RoundsSoFar {
@@ -47,9 +30,9 @@ enum class RoundsEnd { none, error_reached, samples_spent, time_spent, repeated 
 
 class RoundPlanner {
  public:
-  /// `least_pass_samples`: what a pass costs at least, samples a pixel. `reserve_s`: what is left
-  /// to do after the last round. `biased`: rounds have an error in common that the mean of them
-  /// does not lessen.
+  /// `target` has an error, and perhaps a time, or rounds. `least_pass_samples`: what a pass costs
+  /// at least, samples a pixel. `reserve_s`: what is left to do after the last round. `biased`:
+  /// rounds have an error in common that the mean of them does not lessen.
   RoundPlanner(const AccuracyTarget& target, double least_pass_samples, double reserve_s,
                bool biased = false);
 

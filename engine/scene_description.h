@@ -7,8 +7,8 @@
 
 namespace tessera {
 
-/// Lines "name  value": frame, camera, surfaces by kind with their control points, instances,
-/// lights, shaders, options, displays.
+/// Lines "name  value": frame, camera, surfaces with their shapes by kind, lights, shaders,
+/// options, displays.
 std::string describe_scene(const Scene& scene);
 
 }  // namespace tessera

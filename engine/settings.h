@@ -42,8 +42,9 @@ struct Settings {
   std::vector<std::string> aovs;     ///< channel groups; empty: rgb, a, z and those of the displays
   std::optional<std::string> heatmap;  ///< measure to map, one of engine/heatmap.h
   uint32_t seed = 0;
-  int threads = 0;                        ///< 0: every core
-  size_t memory_bytes = size_t(2) << 30;  ///< budget for diced grids
+  int threads = 0;  ///< 0: every core
+  size_t memory_bytes =
+      size_t(2) << 30;  ///< budget for diced grids, not for what is shaded on them
 };
 
 }  // namespace tessera

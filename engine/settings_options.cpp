@@ -1,12 +1,13 @@
 #include "engine/settings_options.h"
 
-#include <algorithm>
 #include <charconv>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "engine/heatmap.h"
+#include "engine/limits.h"
+#include "engine/option_values.h"
 #include "engine/qualities.h"
 #include "hide/hide.h"
 #include "images/texture_filters.h"
@@ -16,33 +17,6 @@
 
 namespace tessera {
 namespace {
-
-constexpr int max_samples_per_pixel = 1 << 16;
-constexpr double max_error = 1e6;
-constexpr double max_time_s = 1e7;
-constexpr int max_extra_samples = 4096;
-constexpr int max_resolution = 1 << 15;
-constexpr int max_bucket_size = 4096;
-constexpr int max_grid_size = 256;
-constexpr int max_threads = 1024;
-constexpr size_t max_memory_mib = size_t(1) << 24;
-
-/// Accepts "NAME" and "NAME:arguments" of an entry of `registry`; the arguments are checked by
-/// whoever makes it.
-template <class Registry>
-CLI::Validator one_of(Registry registry, const char* kind) {
-  return CLI::Validator(
-      [registry, kind](std::string& spec) -> std::string {
-        const std::string_view name = std::string_view(spec).substr(0, spec.find(':'));
-        std::string choices;
-        for (const auto& entry : registry) {
-          if (name == entry.name) return "";
-          choices += fmt::format(" {}", entry.name);
-        }
-        return fmt::format("no {} '{}'; there is{}", kind, name, choices);
-      },
-      "NAME");
-}
 
 /// "640x480" -> both; false when it is anything else.
 bool parse_format(std::string_view text, int& width, int& height) {
@@ -55,39 +29,6 @@ bool parse_format(std::string_view text, int& width, int& height) {
   return whole(text.substr(0, cross), width) && whole(text.substr(cross + 1), height);
 }
 
-/// "a,b" -> a and b.
-std::vector<std::string> split_list(std::string_view text) {
-  std::vector<std::string> items;
-  for (size_t start = 0; start <= text.size();) {
-    const size_t end = std::min(text.find(',', start), text.size());
-    items.emplace_back(text.substr(start, end - start));
-    start = end + 1;
-  }
-  return items;
-}
-
-/// As CLI::Range, which lets what is not a number pass.
-CLI::Validator number_between(float low, float high) {
-  return CLI::Validator(
-      [low, high](std::string& text) -> std::string {
-        float value = 0;
-        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return "";
-        return fmt::format("'{}': expected a number from {} to {}", text, low, high);
-      },
-      fmt::format("[{} - {}]", low, high));
-}
-
-/// A number above 0 and up to `high`.
-CLI::Validator number_above_0(double high) {
-  return CLI::Validator(
-      [high](std::string& text) -> std::string {
-        double value = 0;
-        if (CLI::detail::lexical_cast(text, value) && value > 0 && value <= high) return "";
-        return fmt::format("'{}': expected a number above 0 and up to {}", text, high);
-      },
-      fmt::format("(0 - {}]", high));
-}
-
 /// As one_of() the methods for distribution effects, and "filter" for none of them.
 CLI::Validator reconstruction() {
   return CLI::Validator(
@@ -98,34 +39,6 @@ CLI::Validator reconstruction() {
         return problem.empty() ? problem : problem + " filter";
       },
       "NAME");
-}
-
-std::vector<double> round_list(const std::string& list) {
-  std::vector<double> rounds;
-  for (const std::string& item : split_list(list)) {
-    double samples = 0;
-    if (!CLI::detail::lexical_cast(item, samples) || !(samples > 0) ||
-        samples > max_samples_per_pixel)
-      throw CLI::ValidationError(
-          "--rounds",
-          fmt::format("'{}': expected numbers above 0 and up to {}, separated by commas", list,
-                      max_samples_per_pixel));
-    rounds.push_back(samples);
-  }
-  return rounds;
-}
-
-std::vector<int> pass_list(const std::string& list) {
-  std::vector<int> passes;
-  for (const std::string& item : split_list(list)) {
-    int samples = 0;
-    if (!CLI::detail::lexical_cast(item, samples) || samples < 1 || samples > max_samples_per_pixel)
-      throw CLI::ValidationError(
-          "--passes", fmt::format("'{}': expected whole numbers from 1 to {}, separated by commas",
-                                  list, max_samples_per_pixel));
-    passes.push_back(samples);
-  }
-  return passes;
 }
 
 /// How many samples: so many, or as many as something takes.
@@ -155,7 +68,9 @@ void add_sample_options(CLI::App& app, Settings& settings) {
   CLI::Option* rounds =
       app.add_option_function<std::string>(
              "--rounds",
-             [&settings](const std::string& list) { settings.rounds = round_list(list); },
+             [&settings](const std::string& list) {
+               settings.rounds = positive_numbers("--rounds", list, max_samples_per_pixel);
+             },
              "repeat a frame of --error: the statistics' \"repeat\", samples per pixel of each of "
              "the passes of a round")
           ->excludes(samples)
@@ -163,7 +78,10 @@ void add_sample_options(CLI::App& app, Settings& settings) {
           ->excludes(time)
           ->type_name("N,N,...");
   app.add_option_function<std::string>(
-         "--passes", [&settings](const std::string& list) { settings.passes = pass_list(list); },
+         "--passes",
+         [&settings](const std::string& list) {
+           settings.passes = whole_numbers("--passes", list, max_samples_per_pixel);
+         },
          "repeat a frame of --time: the statistics' \"repeat\", samples per pixel of each pass")
       ->excludes(samples)
       ->excludes(error)
@@ -278,7 +196,7 @@ void add_settings_options(CLI::App& app, Settings& settings) {
   add_sample_options(app, settings);
   app.add_option("--extra-samples", settings.extra_samples,
                  "most samples a pixel may have besides, where a filter for distribution effects "
-                 "runs and the focal plane is in it (100)")
+                 "runs and the focal plane is in it (100). Not with --error")
       ->check(CLI::Range(0, max_extra_samples))
       ->type_name("N");
   add_rate_options(app, settings);
@@ -299,7 +217,10 @@ void add_settings_options(CLI::App& app, Settings& settings) {
       ->type_name("N");
   app.add_option_function<size_t>(
          "--memory", [&settings](const size_t& mib) { settings.memory_bytes = mib << 20; },
-         fmt::format("budget for diced grids in MiB ({})", settings.memory_bytes >> 20))
+         fmt::format(
+             "budget for diced grids in MiB ({}); what is shaded on them comes on top, about "
+             "as much again",
+             settings.memory_bytes >> 20))
       ->check(CLI::Range(size_t(1), max_memory_mib))
       ->type_name("MIB");
 }

@@ -31,7 +31,7 @@ struct Statistics {
   std::vector<std::string> warnings;
 
   nlohmann::ordered_json json() const;
-  /// A few lines for people.
+  /// One line for people.
   std::string summary() const;
   /// Every entry, for --verbose.
   std::string report() const;

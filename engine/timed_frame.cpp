@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "engine/accuracy_target.h"
 #include "engine/image_mean.h"
-#include "engine/round_planner.h"
 #include "engine/time_planner.h"
 #include "images/compare.h"
 
@@ -18,8 +18,6 @@ namespace {
 
 /// Keeps the passes of a frame apart from each other, and from a frame of one pass.
 constexpr uint32_t pass_seed = 0x71e3dfu;
-
-constexpr double late = 1.1;  // of the time given: worth a warning
 
 Image colours_of(const Image& image) {
   Image colours(image.display_window, image.data_window);
@@ -47,9 +45,8 @@ class TimedFrame {
   FrameResult render(Diagnostics& diagnostics) {
     std::optional<int> samples = first();
     while (samples && add_pass(*samples)) samples = next();
-    if (complete_ && target_.time_s) warn(diagnostics);
-    frame_.complete = complete_;
-    return passes_.finish(std::move(frame_), statistics());
+    if (complete_) warn_if_late(target_, passes_.elapsed_s(), samples_, diagnostics);
+    return passes_.finish(std::move(frame_), statistics(), !complete_);
   }
 
  private:
@@ -86,14 +83,6 @@ class TimedFrame {
     samples_ += samples;
     take_closest(passes_.groups(), pass.image, frame_.image);
     average(passes_.groups(), pass.image, double(samples) / double(samples_), frame_.image);
-  }
-
-  void warn(Diagnostics& diagnostics) const {
-    if (passes_.elapsed_s() <= late * *target_.time_s) return;
-    diagnostics.warn_once("time target",
-                          fmt::format("the frame took {:.3g} s rather than {:.3g} s, with {} "
-                                      "samples a pixel",
-                                      passes_.elapsed_s(), *target_.time_s, samples_));
   }
 
   AccuracyStatistics statistics() const {

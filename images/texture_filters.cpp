@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "base/error.h"
+#include "base/find_named.h"
 
 namespace tessera {
 namespace {
@@ -23,12 +23,7 @@ constexpr TextureFilterDefinition definitions[] = {
 std::span<const TextureFilterDefinition> texture_filter_registry() { return definitions; }
 
 const TextureFilterDefinition& find_texture_filter(std::string_view name) {
-  std::string choices;
-  for (const TextureFilterDefinition& definition : definitions) {
-    if (name == definition.name) return definition;
-    choices += fmt::format("{}{}", choices.empty() ? "" : ", ", definition.name);
-  }
-  throw Error(fmt::format("texture filter '{}' is unknown; expected one of {}", name, choices));
+  return find_named(definitions, "texture filter", name);
 }
 
 }  // namespace tessera

@@ -1,7 +1,6 @@
 /// tessera compare: how far one image is from another.
 
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -12,6 +11,7 @@
 #include "engine/frame_files.h"
 #include "images/compare.h"
 #include "images/exr.h"
+#include "images/file_kinds.h"
 #include "images/image_module.h"
 #include "images/perceptual.h"
 #include "images/preview.h"
@@ -24,16 +24,13 @@ struct CompareOptions {
   std::optional<double> fail_over_rmse;
 };
 
-bool is_exr(const std::string& path) { return std::filesystem::path(path).extension() == ".exr"; }
-
 Image read_image(const std::string& path) {
-  return is_exr(path) ? read_exr(path) : load_image_module()->read_image(path);
+  return holds_exr(path) ? read_exr(path) : load_image_module()->read_image(path);
 }
 
 /// As read_image, but the code values of 8-bit pictures become linear.
 Image linear_colors(Image image, const std::string& path) {
-  const std::string kind = std::filesystem::path(path).extension();
-  if (kind != ".png" && kind != ".jpg" && kind != ".jpeg") return image;
+  if (holds_exr(path) || !named_8_bit(path)) return image;
   for (Image::Channel& channel : image.channels)
     for (float& value : channel.values) value = linear_from_srgb(value);
   return image;
@@ -54,7 +51,7 @@ Image absolute_difference(const Image& a, const Image& b) {
 }
 
 void write_difference(const Image& difference, const std::string& path) {
-  if (is_exr(path)) return write_exr(path, difference);
+  if (named_exr(path)) return write_exr(path, difference);
   // A difference in alpha would hide the others.
   Image colours(difference.display_window, difference.data_window);
   for (const Image::Channel& channel : difference.channels) {
@@ -83,7 +80,10 @@ void print(const ImageDifference& difference) {
 }
 
 int run(const CompareOptions& options) {
-  if (!options.difference.empty()) check_writable(options.difference);
+  if (!options.difference.empty()) {
+    check_writable(options.difference);
+    check_format(options.difference);
+  }
   const Image a = read_image(options.a), b = read_image(options.b);
   const ImageDifference difference = compare_images(a, b);
   print(difference);

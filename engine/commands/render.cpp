@@ -1,5 +1,6 @@
 /// tessera render: scene files become images.
 
+#include <csignal>
 #include <filesystem>
 #include <memory>
 
@@ -63,6 +64,8 @@ void print_outcome(const BatchResult& result, Console& console) {
 
 int run(RenderOptions& options) {
   complete(options);
+  // Whoever reads what is printed may go away; the images are still wanted.
+  std::signal(SIGPIPE, SIG_IGN);
   // Before anything that starts threads.
   const InterruptWatch interrupt;
   Console console(options.quiet     ? Verbosity::quiet

@@ -1,24 +1,15 @@
-#include <algorithm>
-#include <filesystem>
-
 #include <OpenImageIO/imageio.h>
 
 #include "base/error.h"
 #include "images/atomic_file.h"
 #include "images/exr.h"
+#include "images/file_kinds.h"
 #include "images/image_module.h"
 #include "images/oiio/oiio_texture.h"
 #include "images/preview.h"
 
 namespace tessera {
 namespace {
-
-std::string extension(const std::string& path) {
-  std::string result = std::filesystem::path(path).extension().string();
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return result;
-}
 
 /// Writes `pixels`, interleaved, of type `type` as `spec` says, through a temporary file.
 void write_pixels(const std::string& path, OIIO::ImageSpec spec, OIIO::TypeDesc type,
@@ -60,18 +51,14 @@ class OiioModule final : public ImageModule {
   void write_image(const std::string& path, const Image& image) const override {
     if (image.data_window.empty() || image.channels.empty())
       throw Error(fmt::format("cannot write {}: the image is empty", path));
-    const std::string kind = extension(path);
-    if (kind == ".exr") return write_exr(path, image);
-    if (kind == ".png") return write_srgb8(path, image, true);
-    if (kind == ".jpg" || kind == ".jpeg") return write_srgb8(path, image, false);
-    if (kind == ".tif" || kind == ".tiff") return write_floats(path, image);
-    throw Error(fmt::format(
-        "cannot write {}: unknown format \"{}\"; expected .exr, .png, .jpg, .jpeg, .tif or .tiff",
-        path, kind));
+    check_format(path);
+    if (named_exr(path)) return write_exr(path, image);
+    if (named_8_bit(path)) return write_srgb8(path, image, lower_extension(path) == ".png");
+    write_floats(path, image);
   }
 
   Image read_image(const std::string& path) const override {
-    if (extension(path) == ".exr") return read_exr(path);
+    if (named_exr(path)) return read_exr(path);
     const auto input = OIIO::ImageInput::open(path);
     if (!input) throw Error(fmt::format("cannot read {}: {}", path, OIIO::geterror()));
     const OIIO::ImageSpec& spec = input->spec();

@@ -118,6 +118,19 @@ TEST_CASE("a frame never overwrites another of the same run") {
   CHECK_THAT(result.err, Contains("s.exr was already written by an earlier frame"));
 }
 
+TEST_CASE("a frame that names a file twice is told so") {
+  const TemporaryFolder folder;
+  folder.write("s.rib", sphere_scene());
+  const ProgramResult twice =
+      run_tessera({"render", "s.rib", "-o", "a.png", "--preview", "./a.png"}, folder);
+  CHECK(twice.exit_code == 1);
+  CHECK_THAT(twice.err, Contains("a.png is named twice by this frame") && !Contains("earlier"));
+  folder.write("s.rib",
+               "Display \"a\" \"zfile\" \"z\"\nDisplay \"+a\" \"zfile\" \"z\"\n" + sphere_scene());
+  CHECK_THAT(run_tessera({"render", "s.rib"}, folder).err,
+             Contains("a is named twice by this frame"));
+}
+
 TEST_CASE("several files go to numbered images or into a folder") {
   const TemporaryFolder folder;
   folder.write("a.rib", sphere_camera() + sphere_world(0.3));
@@ -131,7 +144,8 @@ TEST_CASE("several files go to numbered images or into a folder") {
   CHECK(read_text(folder / "x.0001.exr").size() > 0);
 }
 
-TEST_CASE("option --skip-existing renders what is missing, broken or interrupted, and nothing else") {
+TEST_CASE(
+    "option --skip-existing renders what is missing, broken or interrupted, and nothing else") {
   const TemporaryFolder folder;
   for (int n = 1; n <= 4; ++n) folder.write(fmt::format("s.{}.rib", n), sphere_scene());
   const std::vector<std::string> arguments{"render", "s.#.rib", "--frames",       "1-4",

@@ -254,6 +254,30 @@ TEST_CASE("an output that cannot be written is refused before rendering") {
   CHECK_THAT(result.err, Contains("error: cannot write no/such/out.exr"));
 }
 
+TEST_CASE("Displays of no mode and names of no format are refused before rendering") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& displays, std::vector<std::string> options,
+                           const char* message) {
+    folder.write("s.rib", displays + sphere_scene());
+    options.insert(options.begin(), {"render", "s.rib"});
+    const ProgramResult result = run_tessera(options, folder);
+    CHECK(result.exit_code == 1);
+    CHECK_THAT(result.err, Contains(message) && !Contains("%"));
+    CHECK(folder.files() == std::vector<std::string>{"s.rib"});
+  };
+  const std::string sound = "Display \"a.exr\" \"file\" \"rgb\"\n";
+  refused(sound + "Display \"+b.exr\" \"file\" \"rgbq\"\n", {}, "s.rib:2: Display mode 'rgbq'");
+  refused("Display \"b.exr\" \"file\" \"\"\n", {}, "s.rib:1: Display mode ''");
+  refused(sound + "Display \"+b.gif\" \"file\" \"rgb\"\n", {}, "cannot write b.gif");
+  refused("", {"-o", "b"}, "cannot write b: unknown format");
+  refused("", {"-o", "a.exr", "--preview", "b.bmp"}, "cannot write b.bmp: unknown format");
+  // What is not used is not looked at.
+  folder.write("s.rib", "Display \"w\" \"framebuffer\" \"rgbq\"\n" + sphere_scene());
+  CHECK(run_tessera({"render", "s.rib"}, folder).exit_code == 0);
+  folder.write("s.rib", "Display \"w\" \"file\" \"rgbq\"\n" + sphere_scene());
+  CHECK(run_tessera({"render", "s.rib", "-o", "a.exr"}, folder).exit_code == 0);
+}
+
 TEST_CASE("info tells what a scene holds and its plan, and renders nothing") {
   const TemporaryFolder folder;
   folder.write("s.rib", everything_scene());

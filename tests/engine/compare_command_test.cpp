@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "images/exr.h"
+#include "images/file_kinds.h"
 #include "tests/engine/program.h"
 
 using namespace tessera;
@@ -72,6 +73,33 @@ TEST_CASE("compare writes the differences") {
   CHECK(difference.find_channel("R")->values[6] == 0.25f);
   CHECK(difference.find_channel("R")->values[0] == 0.0f);
   CHECK(read_text(folder / "d.png").starts_with("\x89PNG"));
+}
+
+TEST_CASE("the case of an extension changes nothing, and depth files are EXR under any name") {
+  const TemporaryFolder folder;
+  write_grey(folder / "grey.exr", 0.2f);
+  write_grey(folder / "dark.exr", 0.18f);
+  write_grey(folder / "black.exr", 0);
+  // Differences to black are the pictures themselves, as PNG.
+  for (const std::string picture : {"grey", "dark"})
+    REQUIRE(
+        run_tessera({"compare", picture + ".exr", "black.exr", "--diff", picture + ".png"}, folder)
+            .exit_code == 0);
+  const auto copy = [&](const std::string& from, const std::string& to) {
+    std::filesystem::copy_file(folder / from, folder / to);
+    return to;
+  };
+  const auto compared = [&](const std::string& a, const std::string& b) {
+    const ProgramResult result = run_tessera({"compare", a, b}, folder);
+    CHECK(result.exit_code == 0);
+    return result.out;
+  };
+  CHECK(compared(copy("grey.png", "a.PNG"), copy("dark.png", "b.Png")) ==
+        compared("grey.png", "dark.png"));
+  const std::string exr = compared("grey.exr", "dark.exr");
+  CHECK(compared(copy("grey.exr", "a.EXR"), copy("dark.exr", "b.z")) == exr);
+  REQUIRE(run_tessera({"compare", "a.EXR", "b.z", "--diff", "d.EXR"}, folder).exit_code == 0);
+  CHECK(holds_exr(folder / "d.EXR"));
 }
 
 TEST_CASE("images that cannot be compared fail") {

@@ -70,6 +70,15 @@ TEST_CASE("a heat map changes no other channel, and there is none unless asked f
                     Catch::Contains("heat map 'heat' is unknown; expected one of tests"));
 }
 
+TEST_CASE("an empty heat map says whose doing it is") {
+  Settings settings;
+  settings.heatmap = "extra";
+  const FrameResult frame = render_text_frame(sphere_scene(), settings);
+  REQUIRE(frame.statistics.warnings.size() == 1);
+  CHECK_THAT(frame.statistics.warnings.front(),
+             Catch::Contains("no pixel takes more samples") && !Catch::Contains("hider"));
+}
+
 TEST_CASE("a heat map is written beside the image, with its scale") {
   const TemporaryFolder folder;
   folder.write("s.rib", sphere_scene());

@@ -1,9 +1,12 @@
 #include <csignal>
 
 #include <catch2/catch.hpp>
+#include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/error.h"
 #include "engine/interrupt.h"
 
 using namespace tessera;
@@ -68,6 +71,27 @@ TEST_CASE("a watch that saw nothing leaves Ctrl-C as it was") {
     { const InterruptWatch watch; }
     kill(getpid(), SIGINT);
     for (;;) pause();
+  });
+  REQUIRE(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGINT);
+}
+
+TEST_CASE("a watch that cannot be set up leaves signals and descriptors as they were") {
+  const int status = status_of_child([] {
+    std::signal(SIGINT, SIG_DFL);
+    // One descriptor is free: the second that a watch needs is refused.
+    const int first = open("/dev/null", O_RDONLY);
+    close(first);
+    const rlimit limit{rlim_t(first) + 1, rlim_t(first) + 1};
+    if (setrlimit(RLIMIT_NOFILE, &limit) != 0) _exit(1);
+    try {
+      const InterruptWatch watch;
+      _exit(2);
+    } catch (const Error&) {
+    }
+    if (open("/dev/null", O_RDONLY) != first) _exit(3);
+    kill(getpid(), SIGINT);
+    _exit(4);
   });
   REQUIRE(WIFSIGNALED(status));
   CHECK(WTERMSIG(status) == SIGINT);

@@ -1,18 +1,17 @@
 // When a frame has had enough, with made-up errors and a made-up clock.
 
 #include <cmath>
-#include <limits>
 
 #include <catch2/catch.hpp>
 
-#include "base/error.h"
 #include "engine/round_planner.h"
-#include "engine/settings.h"
 
 using namespace tessera;
-using Catch::Matchers::Contains;
 
 namespace {
+
+// An error that no number of samples here comes to: the time decides.
+constexpr double out_of_reach = 1e-6;
 
 // A frame whose passes take fixed_s + sample_s * samples, and whose squared error with n samples a
 // pixel is noise / n^power.
@@ -101,7 +100,7 @@ TEST_CASE("a frame ends near the time given, whatever its passes cost") {
         for (const double sample_s : {0.02, 0.05})
           for (const double uneven : {1.0, 2.0}) {
             MadeUpFrame frame{setup_s, fixed_s, sample_s, uneven};
-            RoundPlanner planner(target_of({}, time_s, 65536), 1, 0.02 * time_s);
+            RoundPlanner planner(target_of(out_of_reach, time_s, 65536), 1, 0.02 * time_s);
             frame.run(planner);
             CAPTURE(time_s, setup_s, fixed_s, sample_s, uneven, frame.rounds);
             CHECK(planner.end() == RoundsEnd::time_spent);
@@ -113,7 +112,7 @@ TEST_CASE("a frame ends near the time given, whatever its passes cost") {
 TEST_CASE("a frame with room for few samples uses it") {
   // The first two passes take 1.1 s, and two more of the least samples as much again.
   MadeUpFrame frame{0.1, 0.01, 0.49, 2.0};
-  RoundPlanner planner(target_of({}, 2.4), 1, 0);
+  RoundPlanner planner(target_of(out_of_reach, 2.4), 1, 0);
   frame.run(planner);
   CHECK(planner.end() == RoundsEnd::time_spent);
   CHECK(frame.state.mean_samples == 4);
@@ -121,7 +120,7 @@ TEST_CASE("a frame with room for few samples uses it") {
 
 TEST_CASE("a frame that takes too long whatever is done has the least there is") {
   MadeUpFrame frame{5, 1, 1};
-  RoundPlanner planner(target_of({}, 3.0), 1, 0);
+  RoundPlanner planner(target_of(out_of_reach, 3.0), 1, 0);
   frame.run(planner);
   CHECK(planner.end() == RoundsEnd::time_spent);
   CHECK(frame.state.mean_samples == 2);
@@ -148,30 +147,10 @@ TEST_CASE("rounds are repeated as they were") {
   CHECK_FALSE(planner.next({}));
 }
 
-TEST_CASE("targets that make no sense are errors") {
-  const auto with = [](auto change) {
-    Settings settings;
-    change(settings);
-    return accuracy_target(settings);
-  };
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const double bad : {0.0, -1.0, nan, std::numeric_limits<double>::infinity()}) {
-    CHECK_THROWS_WITH(with([&](Settings& s) { s.error = bad; }), Contains("above 0"));
-    CHECK_THROWS_WITH(with([&](Settings& s) { s.time_s = bad; }), Contains("above 0"));
-    CHECK_THROWS_WITH(with([&](Settings& s) { s.rounds = {4, bad}; }), Contains("above 0"));
-  }
-  CHECK_THROWS_AS(with([](Settings& s) { s.max_samples = 64; }), Error);
-  CHECK_THROWS_AS(with([](Settings& s) { s.error = 0.1, s.max_samples = 1; }), Error);
-  CHECK_THROWS_AS(with([](Settings& s) { s.error = 0.1, s.samples_per_pixel = 4; }), Error);
-  CHECK_THROWS_AS(with([](Settings& s) { s.rounds = {4}, s.error = 0.1; }), Error);
-  CHECK_FALSE(with([](Settings&) {}).several_passes());
-  CHECK(with([](Settings& s) { s.error = 0.1; }).max_samples == 1024);
-}
-
 TEST_CASE("what uneven samples cost is not known from even ones, and does not upset the time") {
   for (const double sample_s : {0.2, 0.3, 0.4}) {
     MadeUpFrame frame{0.01, 0.001, sample_s, 2.2};
-    RoundPlanner planner(target_of({}, 10.0), 1, 0);
+    RoundPlanner planner(target_of(out_of_reach, 10.0), 1, 0);
     frame.run(planner);
     CAPTURE(sample_s, frame.rounds);
     CHECK(frame.state.elapsed_s < 10.2);

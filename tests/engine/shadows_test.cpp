@@ -77,8 +77,7 @@ TEST_CASE("a spot light's shadow in a picture is where ray casting puts it") {
   Diagnostics diagnostics;
   SceneCollector sink;
   read_rib_text(depth_pass(file), "depth.rib", sink, diagnostics);
-  write_displays(render_frame(*sink.scenes.front(), {}, diagnostics), *sink.scenes.front(),
-                 diagnostics);
+  write_displays(render_frame(*sink.scenes.front(), {}, diagnostics), *sink.scenes.front());
   for (const char* rate : {"cell", "pixel", "sample"}) {
     INFO(rate);
     const FrameResult frame = render_text_frame(picture_pass(file, rate));
