@@ -9,9 +9,12 @@ void BucketRenderer::render(int i, int j) {
   const Grids grids = parts_.grids.grids_of_bucket(i, j);
   timer_.lap(times_.dice_s);
   const PixelRect rect = parts_.buckets.rect(i, j);
-  parts_.film.add_bucket(i, j, parts_.allocation ? allocated(rect, grids) : even(rect, grids));
+  const Strip& strip = parts_.strip;
+  heatmap_ = j >= strip.first_new_row ? parts_.heatmap : nullptr;
+  parts_.film.add_bucket(i, j - strip.first_row,
+                         parts_.allocation ? allocated(rect, grids) : even(rect, grids));
   timer_.lap(times_.reconstruct_s);
-  if (!parts_.keep_grids) parts_.grids.finish_bucket(i, j);
+  if (!parts_.keep_grids && j < strip.end_last_row) parts_.grids.finish_bucket(i, j);
   timer_.lap(times_.dice_s);
 }
 
@@ -53,7 +56,7 @@ SampleValues BucketRenderer::allocated(const PixelRect& rect, const Grids& grids
 void BucketRenderer::visit(const SamplePattern& pattern, const PixelRect& rect,
                            const Grids& grids) {
   pattern.fill(rect, samples_);
-  if (parts_.heatmap) pixel_counts_.assign(size_t(rect.pixel_count()), 0);
+  if (heatmap_) pixel_counts_.assign(size_t(rect.pixel_count()), 0);
   timer_.lap(times_.sample_s);
   hide(grids);
   timer_.lap(times_.hide_s);
@@ -66,7 +69,7 @@ SampleValues BucketRenderer::shade(const Grids& grids) {
   timer_.lap(times_.shade_s);
   SampleValues values = composite_samples(input);
   timer_.lap(times_.composite_s);
-  if (parts_.heatmap) add_to_heatmap();
+  if (heatmap_) add_to_heatmap();
   return values;
 }
 
@@ -89,11 +92,11 @@ void BucketRenderer::add_extra(const std::vector<uint8_t>& chosen, const Grids& 
 
 void BucketRenderer::map_samples(const std::vector<uint8_t>& chosen, uint8_t choice,
                                  const PixelRect& rect, uint32_t samples) {
-  if (!parts_.heatmap || !parts_.heatmap->definition().extra()) return;
+  if (!heatmap_ || !heatmap_->definition().extra()) return;
   pixel_counts_.assign(chosen.size(), 0);
   for (size_t pixel = 0; pixel < chosen.size(); ++pixel)
     if (chosen[pixel] == choice) pixel_counts_[pixel] = samples;
-  parts_.heatmap->add_bucket(rect, pixel_counts_);
+  heatmap_->add_bucket(rect, pixel_counts_);
 }
 
 void BucketRenderer::hide(const std::vector<std::shared_ptr<const Grid>>& grids) {
@@ -108,8 +111,8 @@ void BucketRenderer::hide(const std::vector<std::shared_ptr<const Grid>>& grids)
   input.far_clip = parts_.camera.far_clip();
   input.lens_extent = parts_.camera.lens_profile().extent();
   input.features = parts_.features;
-  if (parts_.heatmap && parts_.heatmap->definition().hide_counts)
-    input.*parts_.heatmap->definition().hide_counts = pixel_counts_;
+  if (heatmap_ && heatmap_->definition().hide_counts)
+    input.*heatmap_->definition().hide_counts = pixel_counts_;
   parts_.hider.hide(input, *scratch_, fragments_, hide_counters_);
 }
 
@@ -118,16 +121,16 @@ ShadeInput BucketRenderer::shade_input(std::span<const std::shared_ptr<const Gri
   input.wants_cells =
       std::ranges::any_of(parts_.channel_groups, [](const auto* group) { return group->of_cells; });
   shaded_places_.clear();
-  if (parts_.heatmap && parts_.heatmap->definition().shade_places)
-    input.*parts_.heatmap->definition().shade_places = &shaded_places_;
+  if (heatmap_ && heatmap_->definition().shade_places)
+    input.*heatmap_->definition().shade_places = &shaded_places_;
   return input;
 }
 
 void BucketRenderer::add_to_heatmap() {
-  if (parts_.heatmap->definition().hide_counts)
-    parts_.heatmap->add_bucket(samples_.rect, pixel_counts_);
-  else if (parts_.heatmap->definition().shade_places)
-    parts_.heatmap->add_places(shaded_places_);
+  if (heatmap_->definition().hide_counts)
+    heatmap_->add_bucket(samples_.rect, pixel_counts_);
+  else if (heatmap_->definition().shade_places)
+    heatmap_->add_places(shaded_places_);
 }
 
 SampleValues BucketRenderer::composite_samples(const ShadeInput& input) {

@@ -12,6 +12,7 @@
 #include "engine/extra_samples.h"
 #include "engine/heatmap.h"
 #include "engine/sample_allocation.h"
+#include "engine/strips.h"
 #include "hide/hide.h"
 #include "reconstruct/reconstruct.h"
 #include "shade/shade.h"
@@ -22,6 +23,7 @@ namespace tessera {
 struct FrameParts {
   const Camera& camera;
   const BucketLayout& buckets;
+  const Strip& strip;            ///< whose rows are rendered; the film has their buckets
   const SamplePattern* pattern;  ///< null where there is an allocation
   const Hider& hider;
   HideFeatures features;
@@ -72,6 +74,7 @@ class BucketRenderer {
   explicit BucketRenderer(const FrameParts& parts)
       : parts_(parts), scratch_(parts.hider.make_scratch()) {}
 
+  /// Bucket (i, j) of the layout, in a row of the strip.
   void render(int i, int j);
 
   const HideCounters& hide_counters() const { return hide_counters_; }
@@ -95,6 +98,7 @@ class BucketRenderer {
   SampleValues composite_samples(const ShadeInput& input);
 
   FrameParts parts_;
+  Heatmap* heatmap_ = nullptr;  // null: nobody counts this bucket
   std::unique_ptr<Hider::Scratch> scratch_;
   SampleBlock samples_;
   std::vector<HideGrid> hide_grids_;

@@ -108,7 +108,8 @@ FramePasses::FramePasses(const Scene& scene, const Settings& settings, Diagnosti
       threads_(thread_count(settings)),
       groups_(channel_groups(plan_)),
       hider_(make_hider(plan_.hider)),
-      reconstruction_method_(make_reconstruction_method(plan_.reconstruct)) {
+      reconstruction_method_(make_reconstruction_method(plan_.reconstruct)),
+      strips_(strips_that_fit()) {
   const ShadingFrame shaded = shading_frame(plan_, bindings_);
   shading_ = control.make_shading ? control.make_shading(plan_.shading, shaded)
                                   : make_shading(plan_.shading, shaded);
@@ -170,18 +171,49 @@ PassResult FramePasses::render(const SampleAllocation& allocation, uint32_t seed
   return render({nullptr, nullptr, &allocation, &levels});
 }
 
+ReconstructionSettings FramePasses::strip_settings(const Strip& strip) const {
+  ReconstructionSettings settings = reconstruction_settings(
+      plan_, buckets_, camera_, groups_, scene_.options.exposure_gain,
+      several_ ? 1.0f : scene_.options.exposure_gamma, threads_, settings_.filter_memory_bytes);
+  settings.method = reconstruction_method_;
+  settings.film.crop = strip.crop;
+  settings.film.sampled = strip.sampled(buckets_);
+  return settings;
+}
+
+/// As few as the memory for moments allows; as many as there are rows of buckets if none do.
+std::vector<Strip> FramePasses::strips_that_fit() const {
+  for (int count = 1;; ++count) {
+    auto strips = cut_into_strips(buckets_, camera_.crop(), rows_needed(plan_), count);
+    const bool fits = std::ranges::all_of(strips, [&](const Strip& strip) {
+      const ReconstructionSettings settings = strip_settings(strip);
+      return reconstruction_bytes(settings) <= settings.memory_bytes;
+    });
+    if (fits || count >= buckets_.rows()) return strips;
+  }
+}
+
 PassResult FramePasses::render(const Samples& samples) {
+  int rows = 0;
+  for (const Strip& strip : strips_) rows += strip.end_row - strip.first_row;
+  std::optional<BucketQueue> queue;
+  if (grids_) queue.emplace(buckets_, control_, ++pass_count_, known_passes(), rows);
   PassResult result;
-  ReconstructionSettings reconstruction =
-      reconstruction_settings(plan_, buckets_, camera_, groups_, scene_.options.exposure_gain,
-                              several_ ? 1.0f : scene_.options.exposure_gamma, threads_);
-  reconstruction.method = reconstruction_method_;
-  const auto film = make_reconstruction(reconstruction);
+  for (const Strip& strip : strips_) render_strip(samples, strip, queue, result);
+  if (queue) result.complete = queue->complete();
+  return result;
+}
+
+void FramePasses::render_strip(const Samples& samples, const Strip& strip,
+                               std::optional<BucketQueue>& queue, PassResult& result) {
+  const ReconstructionSettings settings = strip_settings(strip);
+  const auto film = make_reconstruction(settings);
   std::optional<PlainColours> plain;
-  if (samples.allocation && plan_.filters_distribution()) plain.emplace(*film, reconstruction.film);
-  if (grids_) {
+  if (samples.allocation && plan_.filters_distribution()) plain.emplace(*film, settings.film);
+  if (queue) {
     const FrameParts parts{camera_,
                            buckets_,
+                           strip,
                            samples.pattern,
                            *hider_,
                            {plan_.motion, plan_.lens, plan_.transparency},
@@ -196,14 +228,12 @@ PassResult FramePasses::render(const Samples& samples) {
                            samples.levels,
                            several_,
                            heatmap_ ? &*heatmap_ : nullptr};
-    BucketQueue queue(buckets_, control_, ++pass_count_, known_passes());
-    render_buckets(parts, threads_, queue, statistics_);
-    result.complete = queue.complete();
+    queue->begin_rows(strip.first_row, strip.end_row);
+    render_buckets(parts, threads_, *queue, statistics_);
   }
-  result.image = film->finish();
-  if (plain) result.plain = plain->finish();
-  statistics_.add(*film);
-  return result;
+  append_strip(film->finish(), result.image);
+  if (plain) append_strip(plain->finish(), result.plain ? *result.plain : result.plain.emplace());
+  statistics_.add(*film, strip.crop.pixel_count());
 }
 
 FrameResult FramePasses::finish(PassResult&& pass, AccuracyStatistics&& accuracy, bool cancelled) {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/bucket_queue.h"
 #include "engine/frame.h"
 #include "engine/frame_setup.h"
 #include "engine/frame_statistics.h"
@@ -66,6 +67,10 @@ class FramePasses {
   };
   void set_up_surfaces();
   PassResult render(const Samples& samples);
+  void render_strip(const Samples& samples, const Strip& strip, std::optional<BucketQueue>& queue,
+                    PassResult& result);
+  ReconstructionSettings strip_settings(const Strip& strip) const;
+  std::vector<Strip> strips_that_fit() const;
   const ShutterProfile* shutter() const;
   const LensProfile* lens() const;
   int known_passes() const;  // 0: how many there will be is not known
@@ -85,6 +90,7 @@ class FramePasses {
   std::vector<const AovDefinition*> groups_;
   std::unique_ptr<Hider> hider_;
   std::shared_ptr<const ReconstructionMethod> reconstruction_method_;
+  const std::vector<Strip> strips_;
   std::unique_ptr<Shading> shading_;
   std::unique_ptr<Displacer> displacer_;
   std::unique_ptr<GridSource> grids_;  // null: nothing to see

@@ -75,8 +75,23 @@ std::shared_ptr<const RayTracer> ray_tracer(const FramePlan& plan, const Scene& 
   return make_ray_tracer(scene, camera, rays, diagnostics);
 }
 
+namespace {
+
+int filter_reach(const FramePlan& plan) {
+  return plan.filters_distribution() ? reconstruction_reach(plan.reconstruct) : 0;
+}
+
+}  // namespace
+
+int rows_needed(const FramePlan& plan) {
+  constexpr int far = 1 << 10;
+  const PixelRect around = sampled_pixels({0, 0, 1, 1}, {-far, -far, far, far}, plan.filter_x_width,
+                                          plan.filter_y_width);
+  return filter_reach(plan) + around.y1 - 1;
+}
+
 BucketLayout bucket_layout(const FramePlan& plan, const Camera& camera) {
-  const int reach = plan.filters_distribution() ? reconstruction_reach(plan.reconstruct) : 0;
+  const int reach = filter_reach(plan);
   const PixelRect crop = camera.crop();
   const PixelRect filtered =
       PixelRect{crop.x0 - reach, crop.y0 - reach, crop.x1 + reach, crop.y1 + reach}.intersect(
@@ -89,9 +104,10 @@ ReconstructionSettings reconstruction_settings(const FramePlan& plan, const Buck
                                                const Camera& camera,
                                                const std::vector<const AovDefinition*>& groups,
                                                float exposure_gain, float exposure_gamma,
-                                               int threads) {
+                                               int threads, size_t moment_bytes) {
   ReconstructionSettings settings;
   settings.features = plan.distribution();
+  settings.memory_bytes = moment_bytes;
   settings.threads = threads;
   if (plan.lens) settings.spreads.lens = lens_spread(camera.lens_profile());
   if (plan.motion) settings.spreads.time = time_spread(camera.shutter_profile());

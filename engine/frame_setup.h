@@ -33,12 +33,15 @@ std::shared_ptr<const RayTracer> ray_tracer(const FramePlan& plan, const Scene& 
 
 BucketLayout bucket_layout(const FramePlan& plan, const Camera& camera);
 
+/// Pixels above and below one whose samples it needs.
+int rows_needed(const FramePlan& plan);
+
 /// All but the method. `exposure_gamma` as FilmSettings' own: 1 where pixels are wanted linear.
 ReconstructionSettings reconstruction_settings(const FramePlan& plan, const BucketLayout& buckets,
                                                const Camera& camera,
                                                const std::vector<const AovDefinition*>& groups,
                                                float exposure_gain, float exposure_gamma,
-                                               int threads);
+                                               int threads, size_t moment_bytes);
 
 /// Settings::threads, or every core. Throws Error outside 0 to max_threads.
 int thread_count(const Settings& settings);

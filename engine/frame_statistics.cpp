@@ -78,10 +78,11 @@ void FrameStatistics::add(const BucketRenderer& worker) {
   extra_samples_ += worker.extra_samples();
 }
 
-void FrameStatistics::add(const Reconstruction& reconstruction) {
+void FrameStatistics::add(const Reconstruction& reconstruction, long pixels) {
   merge_counters(film_, reconstruction.counters());
   filter_s_ += reconstruction.filter_s();
-  bound_samples_ = reconstruction.bound_samples();
+  bound_samples_ += double(pixels) * reconstruction.bound_samples();
+  bound_pixels_ += double(pixels);
 }
 
 void FrameStatistics::add(const GridSource& grids) {
@@ -111,7 +112,8 @@ Statistics FrameStatistics::finish(const FramePlan& plan, const Scene& scene,
   statistics.counts.emplace_back("extra_samples", extra_samples_);
   statistics.heatmap = heatmap_;
   statistics.ratios = {{"ste", ratio(hide_.samples_covered, hide_.samples_tested)}};
-  if (bound_samples_ > 0) statistics.ratios.emplace_back("aaf_bound_spp", bound_samples_);
+  if (bound_samples_ > 0)
+    statistics.ratios.emplace_back("aaf_bound_spp", bound_samples_ / bound_pixels_);
   statistics.memory_bytes = {{"peak_resident_bytes", peak_resident_bytes()},
                              {"peak_grid_bytes", peak_grid_bytes_},
                              {"ray_bytes", ray_bytes_}};

@@ -17,7 +17,8 @@ class FrameStatistics {
   void setup_done() { setup_s_ = elapsed_s(); }
   void add(const BucketRenderer& worker);
   void add(const GridSource& grids);
-  void add(const Reconstruction& reconstruction);
+  /// Once for each pass and strip of `pixels` pixels.
+  void add(const Reconstruction& reconstruction, long pixels);
   void add(const RayTracer& rays) { ray_bytes_ = rays.memory_bytes(); }
   /// The last to be added. Warns if the map is empty, and says why.
   void add(const HeatmapScale& scale, const Heatmap& map, const FramePlan& plan,
@@ -32,7 +33,8 @@ class FrameStatistics {
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double setup_s_ = 0, filter_s_ = 0, bound_samples_ = 0;
+  double setup_s_ = 0, filter_s_ = 0;
+  double bound_samples_ = 0, bound_pixels_ = 0;  // of samples, the sum over pixels
   std::mutex mutex_;
   StageTimes times_;
   HideCounters hide_;

@@ -45,6 +45,8 @@ struct Settings {
   int threads = 0;  ///< 0: every core
   size_t memory_bytes =
       size_t(2) << 30;  ///< budget for diced grids, not for what is shaded on them
+  /// Budget for filters of distribution effects; frames that take more are filtered in strips.
+  size_t filter_memory_bytes = size_t(4) << 30;
 };
 
 }  // namespace tessera

@@ -223,6 +223,15 @@ void add_settings_options(CLI::App& app, Settings& settings) {
              settings.memory_bytes >> 20))
       ->check(CLI::Range(size_t(1), max_memory_mib))
       ->type_name("MIB");
+  app.add_option_function<size_t>(
+         "--filter-memory",
+         [&settings](const size_t& mib) { settings.filter_memory_bytes = mib << 20; },
+         fmt::format(
+             "budget for filters of distribution effects in MiB ({}); frames that take more "
+             "are rendered in strips, and rows between them twice",
+             settings.filter_memory_bytes >> 20))
+      ->check(CLI::Range(size_t(1), max_memory_mib))
+      ->type_name("MIB");
 }
 
 std::string list_choices() {

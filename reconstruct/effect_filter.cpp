@@ -329,6 +329,19 @@ Planes EffectFilter::filter_received(RayEffect effect) const {
 
 FilteredColors filter_effects(const EffectFilterInput& input) { return EffectFilter(input).run(); }
 
+size_t effect_filter_planes(const MomentLayout& layout, const ReconstructionMethod& method) {
+  const size_t widths = method.guarded() ? std::size(candidate_widths) : 1;
+  const auto outputs = [&](Blur blur) {
+    const MomentStack* stack = layout.stack(blur);
+    return stack ? stack->value_count + 1 : 0;
+  };
+  const size_t of_surfaces = outputs(Blur::lens) + outputs(Blur::motion);
+  const size_t of_rays = std::max(outputs(Blur::shadow), outputs(Blur::bounce));
+  // A ratio, the light that it is of and their gain, each with its noise and its candidates.
+  const size_t candidates = 2 * widths, component = 6 + 4 * candidates + 2 * candidates;
+  return widths * of_surfaces + of_rays + 2 * component + 16;
+}
+
 int effect_filter_margin() { return guard_reach + std::max(outlier_reach, facts_smoothing_reach); }
 
 }  // namespace tessera

@@ -31,6 +31,9 @@ struct FilteredColors {
 /// that textures and edges stay sharp.
 FilteredColors filter_effects(const EffectFilterInput& input);
 
+/// Planes that filter_effects() holds at the most, its input and its result not counted.
+size_t effect_filter_planes(const MomentLayout& layout, const ReconstructionMethod& method);
+
 /// Pixels to either side that filter_effects reads for one pixel, on top of the method's own.
 int effect_filter_margin();
 

@@ -64,13 +64,4 @@ std::vector<SampleProducts> MomentLayout::products() const {
   return products;
 }
 
-void check_moment_memory(const MomentLayout& layout, long pixels, size_t memory_bytes) {
-  const double bytes = double(layout.plane_count()) * double(pixels) * sizeof(float);
-  if (bytes > double(memory_bytes))
-    throw Error(fmt::format(
-        "reconstruction needs {} moments for each of {} pixels, {:.3g} GB; {:.3g} GB are allowed: "
-        "use fewer components or a smaller crop",
-        layout.plane_count(), pixels, bytes * 1e-9, double(memory_bytes) * 1e-9));
-}
-
 }  // namespace tessera

@@ -74,7 +74,4 @@ class MomentLayout {
   std::vector<MomentStack> stacks_;
 };
 
-/// Throws Error if `layout` for `pixels` pixels takes more than `memory_bytes`.
-void check_moment_memory(const MomentLayout& layout, long pixels, size_t memory_bytes);
-
 }  // namespace tessera

@@ -111,7 +111,7 @@ struct ReconstructionSettings {
   std::shared_ptr<const ReconstructionMethod> method;  ///< null: the pixel filter alone
   DistributionFeatures features;
   int threads = 1;
-  size_t memory_bytes = size_t(8) << 30;  ///< for the moments of the whole frame
+  size_t memory_bytes = size_t(8) << 30;  ///< that reconstruction_bytes() must not exceed
   SampleSpreads spreads;
 };
 
@@ -139,7 +139,12 @@ class Reconstruction {
 /// unknown method, listing the choices, or bad arguments.
 std::shared_ptr<const ReconstructionMethod> make_reconstruction_method(std::string_view spec);
 
-/// Throws Error for more moments than the memory allows.
+/// What make_reconstruction() holds at the most while its filters run: the moments of the pixels it
+/// filters, what is known of them, and what filters make of them. 0 for the film alone, which keeps
+/// a front of buckets. Samples of buckets that wait for others come on top.
+size_t reconstruction_bytes(const ReconstructionSettings& settings);
+
+/// Throws Error when it would take more memory than the settings allow.
 std::unique_ptr<Reconstruction> make_reconstruction(const ReconstructionSettings& settings);
 
 /// Pixels around a crop that the method needs besides the pixel filter's. Throws Error as

@@ -70,6 +70,19 @@ bool has_weights_below_zero(const FilmSettings& film) {
   return false;
 }
 
+PixelRect sampled_rect(const ReconstructionSettings& settings) {
+  return settings.film.sampled.empty() ? settings.film.crop : settings.film.sampled;
+}
+/// The pixels whose moments the crop needs, as far as samples reach.
+PixelRect filtered_pixels(const ReconstructionSettings& settings) {
+  return settings.film.crop.grown(reconstruction_reach(*settings.method))
+      .intersect(sampled_rect(settings));
+}
+
+bool filters(const ReconstructionSettings& settings) {
+  return settings.method && settings.features.any() && find_group(settings.film.groups, "rgb") >= 0;
+}
+
 /// A film that sums moments, and the filters that run over them in the end.
 class FilteredReconstruction final : public Reconstruction {
  public:
@@ -103,13 +116,8 @@ class FilteredReconstruction final : public Reconstruction {
   double bound_samples() const override { return bound_samples_; }
 
  private:
-  PixelRect sampled() const {
-    return settings_.film.sampled.empty() ? settings_.film.crop : settings_.film.sampled;
-  }
-  /// The pixels whose moments the crop needs, as far as samples reach.
-  PixelRect filtered_rect() const {
-    return settings_.film.crop.grown(reconstruction_reach(*settings_.method)).intersect(sampled());
-  }
+  PixelRect sampled() const { return sampled_rect(settings_); }
+  PixelRect filtered_rect() const { return filtered_pixels(settings_); }
   FilmSettings film_settings() const;
   void finish_image(const Image& all, Image& image);
   void write_colors(const FilteredColors& colors, const Image& all, Image& image) const;
@@ -125,7 +133,6 @@ class FilteredReconstruction final : public Reconstruction {
 
 /// The film's own colours are replaced in the end (write_colors).
 FilmSettings FilteredReconstruction::film_settings() const {
-  check_moment_memory(layout_, filtered_rect().pixel_count(), settings_.memory_bytes);
   FilmSettings film = settings_.film;
   film.sampled = sampled();
   film.crop = filtered_rect();
@@ -209,9 +216,26 @@ int reconstruction_reach(const ReconstructionMethod& method) {
   return method.reach() + effect_filter_margin();
 }
 
+size_t reconstruction_bytes(const ReconstructionSettings& settings) {
+  if (!filters(settings)) return 0;
+  const MomentLayout layout(settings.features, *settings.method);
+  // Wedges of low and high along two axes, normal, surface and count; as met and smoothed.
+  const size_t facts = 2 * (4 * layout.stacks().size() + 5);
+  const size_t planes =
+      layout.plane_count() + facts + effect_filter_planes(layout, *settings.method);
+  return planes * sizeof(float) * size_t(filtered_pixels(settings).pixel_count());
+}
+
 std::unique_ptr<Reconstruction> make_reconstruction(const ReconstructionSettings& settings) {
-  if (!settings.method || !settings.features.any() || find_group(settings.film.groups, "rgb") < 0)
-    return std::make_unique<FilmReconstruction>(settings.film);
+  if (!filters(settings)) return std::make_unique<FilmReconstruction>(settings.film);
+  if (const size_t bytes = reconstruction_bytes(settings); bytes > settings.memory_bytes)
+    throw Error(fmt::format(
+        "reconstruction needs {:.3g} GB for {} x {} pixels, {} moments each; {:.3g} GB are "
+        "allowed: "
+        "use fewer components, a smaller crop or more memory",
+        double(bytes) * 1e-9, filtered_pixels(settings).width(), filtered_pixels(settings).height(),
+        MomentLayout(settings.features, *settings.method).plane_count(),
+        double(settings.memory_bytes) * 1e-9));
   return std::make_unique<FilteredReconstruction>(settings);
 }
 

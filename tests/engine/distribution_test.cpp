@@ -194,6 +194,32 @@ TEST_CASE("threads, buckets and crops do not show in a filtered image", "[distri
   CHECK(differing == 0);
 }
 
+TEST_CASE("a frame that is filtered in strips is the frame", "[distribution]") {
+  SceneText all;
+  all.lens = all.motion = true, all.side = 2, all.width = 20, all.height = 160;
+  const std::string text = distribution_scene(all);
+  const auto map = GENERATE(as<std::optional<std::string>>(), std::nullopt, "tests", "shading");
+  Settings settings;
+  settings.heatmap = map;
+  settings.bucket_size = 16;
+  settings.aovs = {"rgb", "a", "z", "direct", "indirect"};
+  if (!map) settings.passes = {1, 2};
+  const FrameResult whole = render_text_frame(text, settings);
+  settings.filter_memory_bytes = size_t(4) << 20;
+  const FrameResult strips = render_text_frame(text, settings);
+  const auto samples = [](const FrameResult& frame) {
+    for (const auto& [name, count] : frame.statistics.counts)
+      if (name == "samples") return double(count);
+    return 0.0;
+  };
+  REQUIRE(samples(whole) > 0);
+  CHECK(samples(strips) > 1.5 * samples(whole));
+  CHECK(strips.image.data_window == whole.image.data_window);
+  CHECK(differing_values(strips.image, whole.image) == 0);
+  settings.filter_memory_bytes = size_t(1) << 20;
+  CHECK_THROWS_WITH(render_text_frame(text, settings), Contains("more memory"));
+}
+
 TEST_CASE("direct and indirect light add up to the image", "[distribution]") {
   for (const char* method : {"filter", "wiener"}) {
     CAPTURE(method);
