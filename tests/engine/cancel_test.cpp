@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <csignal>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include "engine/frame_files.h"
@@ -88,4 +89,26 @@ TEST_CASE("an interrupted frame is rendered again whatever its images are called
     folder.write(image, whole);
   }
   CHECK_THAT(run_tessera(arguments, folder).out, Contains("skipped"));
+}
+
+TEST_CASE("Ctrl-C is seen although standard streams were closed at the start") {
+  const TemporaryFolder folder;
+  folder.write("s.rib", sphere_scene(256, 192));
+  Process process({"/bin/bash", "-c",
+                   "exec '" + tessera_program() +
+                       "' render s.rib --spp 512 --bucket-size 16 --threads 1 0<&- 2>&-"},
+                  folder);
+  // Its second thread is the one that watches.
+  const std::string threads = fmt::format("/proc/{}/task", process.id());
+  const auto count = [&] {
+    std::error_code gone;
+    return std::distance(std::filesystem::directory_iterator(threads, gone), {});
+  };
+  while (count() == 1) usleep(2000);
+  // Otherwise a descriptor of the watch would be where progress is written.
+  for (const int closed : {STDIN_FILENO, STDERR_FILENO})
+    CHECK(std::filesystem::read_symlink(fmt::format("/proc/{}/fd/{}", process.id(), closed)) ==
+          "/dev/null");
+  REQUIRE(kill(process.id(), SIGINT) == 0);
+  CHECK(process.wait().exit_code == 130);
 }
