@@ -3,6 +3,7 @@ import {ascending} from 'd3-array';
 import {el} from './dom.js';
 import {UNKNOWN} from './format.js';
 import {MEASURES} from './measures.js';
+import {countsText, OUTCOMES, outcome, reasonText} from './outcome.js';
 
 const UNIT_NAMES = {s: 's', '%': '%', MiB: 'MiB'};
 
@@ -45,6 +46,8 @@ function compare(a, b, direction) {
   return order * direction;
 }
 
+const rank = (run) => OUTCOMES.indexOf(outcome(run));
+
 function cells(run) {
   if (run.ok) {
     return COLUMNS.map((column) =>
@@ -56,8 +59,8 @@ function cells(run) {
     el('td', {class: 'label'}, run.label),
     el(
       'td',
-      {class: 'failure', colspan: COLUMNS.length - 2},
-      `failed: ${run.error || 'no message'}`,
+      {class: 'reason', colspan: COLUMNS.length - 2},
+      reasonText(run),
     ),
   ];
 }
@@ -86,7 +89,7 @@ export function showRuns(root, table, images, state) {
       'tr',
       {
         'data-run': run.id,
-        class: run.ok ? null : 'failed',
+        class: run.ok ? null : outcome(run),
         onpointerenter: () => state.set({read: run.id}),
       },
       el('td', {class: 'sides'}, run.ok ? [side('a'), side('b')] : UNKNOWN),
@@ -120,7 +123,7 @@ export function showRuns(root, table, images, state) {
     }
     const order = [...table.runs].sort(
       (a, b) =>
-        ascending(!a.ok, !b.ok) || compare(column.value(a), column.value(b), sorted.direction),
+        ascending(rank(a), rank(b)) || compare(column.value(a), column.value(b), sorted.direction),
     );
     body.append(...order.map((run) => rows.get(run)));
   }
@@ -134,7 +137,6 @@ export function showRuns(root, table, images, state) {
   }
 
   body.append(...rows.values());
-  const failed = table.runs.filter((run) => !run.ok).length;
   root.append(
     el(
       'h2',
@@ -143,7 +145,7 @@ export function showRuns(root, table, images, state) {
       el(
         'small',
         {},
-        ` ${table.runs.length}${failed ? `, ${failed} failed` : ''}; a click on a heading sorts, unknown values and failed runs last`,
+        ` ${countsText(table.runs)}; a click on a heading sorts, what is not known last`,
       ),
     ),
     el(

@@ -15,9 +15,10 @@ function expectedOrder(runs, valueOf, direction) {
   const sorted = ok
     .filter(known)
     .sort((a, b) => direction * (valueOf(a) < valueOf(b) ? -1 : valueOf(a) > valueOf(b) ? 1 : 0));
-  return [...sorted, ...ok.filter((run) => !known(run)), ...runs.filter((run) => !run.ok)].map(
-    (run) => run.id,
+  const others = [false, true].flatMap((left_out) =>
+    runs.filter((run) => !run.ok && Boolean(run.not_run) === left_out),
   );
+  return [...sorted, ...ok.filter((run) => !known(run)), ...others].map((run) => run.id);
 }
 
 async function clickAndRead(page, column) {
@@ -38,13 +39,60 @@ export const pageTests = [
         'More samples & <less> error.',
         'a processor, 2 cores',
         '1024 samples per pixel',
-        '0123456789abcdef',
-        '12, of which 1 failed',
+        '13, of which 1 failed, 1 was not run',
         '1.00e−5',
       ]) {
         assert.ok(text.includes(part), `no "${part}" in: ${text}`);
       }
       assert.equal(await page.title(), '<fixture>.rib: error against cost');
+      await page.click('.particulars summary');
+      assert.match(await page.innerText('.particulars'), /0123456789abcdef[^]*--spp 1024/);
+    },
+  ],
+
+  [
+    'four findings are shown and the others folded, so that the plot starts on the first screen',
+    async (page) => {
+      assert.equal(await page.locator('.words li:visible').count(), 4);
+      assert.equal(await page.innerText('.words summary'), '2 more findings');
+      const plot = await page.locator('.plot-frame').boundingBox();
+      assert.ok(plot.y < 400, `the plot starts at ${plot.y}`);
+      await page.click('.words summary');
+      assert.match(await page.innerText('.words'), /Finding 6 of the sweep/);
+    },
+  ],
+
+  [
+    'notes are shown: the grave ones first, long ones with their start',
+    async (page) => {
+      const {notes} = await tableOf(page);
+      const shown = await page.locator('.notes > ul > li').allInnerTexts();
+      assert.equal(shown.length, 3);
+      assert.equal(shown[0], notes[1]);
+      assert.ok(shown[1].length < 140 && notes[2].startsWith(shown[1].replace(/ …$/, '')), shown[1]);
+      assert.equal(shown[2], notes[3]);
+      await page.click('.notes .long summary');
+      assert.ok((await page.innerText('.notes .long p')).endsWith('spp=40'));
+      await page.click('.notes > details > summary');
+      assert.ok((await page.innerText('.notes')).includes(notes[0]));
+    },
+  ],
+
+  [
+    'a run that was left out is not failed: grey, and after those that are',
+    async (page) => {
+      assert.equal(await page.innerText('.runs tr[data-run="0013"] .reason'), 'not run');
+      const colour = (id) =>
+        page
+          .locator(`.runs tr[data-run="${id}"] .reason`)
+          .evaluate((cell) => getComputedStyle(cell).color.match(/\d+/g).map(Number));
+      const spread = ([r, g, b]) => Math.max(r, g, b) - Math.min(r, g, b);
+      assert.ok(spread(await colour('0013')) < 40, `not run: ${await colour('0013')}`);
+      assert.ok(spread(await colour('0012')) > 100, `failed: ${await colour('0012')}`);
+      await page.click('.runs th[data-column=id] button');
+      await page.click('.runs th[data-column=id] button');
+      assert.deepEqual((await rowIds(page)).slice(-2), ['0012', '0013']);
+      assert.equal(await page.locator('.point[data-run="0013"]').count(), 0);
     },
   ],
 
@@ -56,7 +104,7 @@ export const pageTests = [
         'hider=<b>tct</b></script><script>alert(1)</script><!-- spp=16',
       );
       assert.equal(
-        await page.innerText('.runs tr[data-run="0012"] .failure'),
+        await page.innerText('.runs tr[data-run="0012"] .reason'),
         'failed: no memory: <b>4 GiB</b> needed</script>',
       );
       assert.equal(await page.innerText('#tables tbody td'), 'blur of <i>1000</i> pixels');
