@@ -107,7 +107,7 @@ export const pageTests = [
         await page.innerText('.runs tr[data-run="0012"] .reason'),
         'failed: no memory: <b>4 GiB</b> needed</script>',
       );
-      assert.equal(await page.innerText('#tables tbody td'), 'blur of <i>1000</i> pixels');
+      assert.equal(await page.innerText('#tables tbody th'), 'blur of <i>1000</i> pixels');
       assert.equal(await page.locator('.runs b, #tables i').count(), 0);
     },
   ],
@@ -204,9 +204,53 @@ export const pageTests = [
   ],
 
   [
+    'tables besides show their verdicts without scrolling, next to what they are about',
+    async (page) => {
+      for (const width of [390, 1280, 1920]) {
+        await page.setViewportSize({width, height: 900});
+        const {right, edge} = await page.$eval('#tables .scroll', (frame) => ({
+          right: frame.querySelector('td .verdict').getBoundingClientRect().right,
+          edge: frame.getBoundingClientRect().right,
+        }));
+        assert.ok(right <= edge, `the verdict ends at ${right} of ${edge} at ${width}`);
+      }
+      const header = await page.locator('#tables thead th').allInnerTexts();
+      const names = ['case', 'verdict', 'compared', 'frame', 'worst error', 'time saved', 'oracle'];
+      assert.deepEqual(
+        header.map((text) => text.replace(/\s*[s%]$/, '').trim()),
+        names,
+      );
+      assert.equal(await page.locator('#tables thead th >> nth=5').locator('small').innerText(), '%');
+      assert.equal(await page.innerText('#tables tbody td >> nth=1'), '200 k');
+      assert.match(await page.innerText('#tables .tally'), /1 failed\s*5 ok/);
+    },
+  ],
+
+  [
+    'tables besides keep their first column in sight, and align words among numbers as these',
+    async (page) => {
+      await page.setViewportSize({width: 390, height: 900});
+      const cells = () =>
+        page.$eval('#tables .scroll', (frame) => {
+          const [first, second] = frame.querySelectorAll('tbody tr:first-child > *');
+          return [first, second].map((cell) => cell.getBoundingClientRect().left);
+        });
+      const before = await cells();
+      const moved = await page.$eval('#tables .scroll', (frame) => {
+        frame.scrollLeft = 120;
+        return frame.scrollLeft;
+      });
+      assert.equal(moved, 120);
+      assert.deepEqual(await cells(), [before[0], before[1] - 120]);
+      const words = page.locator('#tables td', {hasText: 'at least 3.17'});
+      assert.equal(await words.evaluate((cell) => getComputedStyle(cell).textAlign), 'right');
+    },
+  ],
+
+  [
     'nothing overflows sideways, on wide and narrow screens',
     async (page) => {
-      for (const width of [1280, 800]) {
+      for (const width of [1920, 1280, 800, 390]) {
         await page.setViewportSize({width, height: 900});
         const wider = await page.evaluate(
           () => document.documentElement.scrollWidth - window.innerWidth,
