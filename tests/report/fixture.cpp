@@ -44,10 +44,11 @@ Image heatmap(int factor) {
 
 /// The number of samples and another knob, three runs a value.
 Json settings_of(int run) {
-  static const char* const hiders[] = {"", "bbox", "tct", "dual", "interleave"};
+  static const std::pair<const char*, const char*> turns[] = {
+      {"", ""}, {"hider", "bbox"}, {"hider", "tct"}, {"shading", "ds"}, {"hider", "interleave"}};
   Json settings = {{"spp", std::to_string(1 << 2 * ((run - 1) % 3 + 1))}};
-  const std::string hider = hiders[(run - 1) / 3];
-  if (!hider.empty()) settings["hider"] = hider;
+  const auto [knob, value] = turns[(run - 1) / 3];
+  if (*knob) settings[knob] = value;
   return settings;
 }
 
@@ -185,7 +186,11 @@ Json table() {
             {{"name", "hider"},
              {"what", "how visibility is found"},
              {"default", "auto"},
-             {"values", {"bbox", "tct", "dual"}}}}},
+             {"values", {"bbox", "tct", "interleave"}}},
+            {{"name", "shading"},
+             {"what", "how shading is placed"},
+             {"default", "aas"},
+             {"values", {"ds"}}}}},
           {"runs", runs},
           {"words", words_of_six()},
           {"notes", notes()},

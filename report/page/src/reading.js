@@ -43,7 +43,7 @@ export function createReading(table, state) {
     name.textContent = run ? `${run.id} ${run.label}${remarks(run)}` : 'Point at a run to read it';
     options.textContent = run
       ? (run.options ?? []).join(' ')
-      : 'click: image A; shift and click: image B';
+      : 'click: image A, with shift: B; arrow keys: next run';
     for (const [key, cell] of values) {
       cell.textContent = run
         ? written(
