@@ -8,6 +8,8 @@ import {REFERENCE} from './state.js';
 
 const RANGES = [0.01, 0.03, 0.1, 0.3, 1, 3, 10];
 
+const HINT = 'Point at a pixel to read it; drag pans; after a click the wheel zooms';
+
 const viewName = {a: 'viewA', b: 'viewB'};
 
 function sideControls(side, table, images, state) {
@@ -87,7 +89,7 @@ export function showCompare(root, table, catalogue, images, state) {
       pixel && layers.map((layer, i) => `${'AB'[i]} ${layer.read ? readAt(layer, pixel) : '–'}`);
     reading.textContent = pixel
       ? `(${pixel.x}, ${pixel.y})   ${values.join('   ')}`
-      : 'Point at a pixel to read it; drag pans, the wheel zooms';
+      : HINT;
   });
 
   const readAt = (layer, {x, y}) =>
@@ -148,7 +150,7 @@ export function showCompare(root, table, catalogue, images, state) {
     el('div', {class: 'layer-legends'}, legends),
     leftOut(catalogue) ?? '',
   );
-  reading.textContent = 'Point at a pixel to read it; drag pans, the wheel zooms';
+  reading.textContent = HINT;
   state.listen(['a', 'b', 'viewA', 'viewB', 'exposure', 'range'], update);
   update();
 }

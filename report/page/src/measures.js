@@ -1,7 +1,7 @@
 // What was measured of a run: how it is called, its unit, how it is written.
 import {significant, count, mebibytes, percent} from './format.js';
 
-/** `scale` turns a value of the table into `unit`; `short`: its name in a heading; `what` explains it. */
+/** Those looked for first come first. `scale` turns a value of the table into `unit`; `short`: its name in a heading; `what` explains it. */
 export const MEASURES = [
   {
     key: 'frame_s',
@@ -12,6 +12,36 @@ export const MEASURES = [
     format: significant,
     cost: true,
     what: 'time to render the frame, wall clock, median of the repeats',
+  },
+  {
+    key: 'rel_mse',
+    name: 'relMSE',
+    short: 'relMSE',
+    unit: '',
+    scale: 1,
+    format: significant,
+    error: true,
+    what: 'mean of (a − b)² / (b² + 0.01), b the reference',
+  },
+  {
+    key: 'visible',
+    name: 'visible',
+    short: 'visible',
+    unit: '%',
+    scale: 100,
+    format: percent,
+    error: true,
+    what: 'pixels in which a viewer would see the difference',
+  },
+  {
+    key: 'rmse',
+    name: 'RMSE',
+    short: 'RMSE',
+    unit: '',
+    scale: 1,
+    format: significant,
+    error: true,
+    what: 'root of the mean squared difference from the reference',
   },
   {
     key: 'cpu_s',
@@ -32,36 +62,6 @@ export const MEASURES = [
     format: mebibytes,
     cost: true,
     what: 'most memory resident at once',
-  },
-  {
-    key: 'rel_mse',
-    name: 'relMSE',
-    short: 'relMSE',
-    unit: '',
-    scale: 1,
-    format: significant,
-    error: true,
-    what: 'mean of (a − b)² / (b² + 0.01), b the reference',
-  },
-  {
-    key: 'rmse',
-    name: 'RMSE',
-    short: 'RMSE',
-    unit: '',
-    scale: 1,
-    format: significant,
-    error: true,
-    what: 'root of the mean squared difference from the reference',
-  },
-  {
-    key: 'visible',
-    name: 'visible',
-    short: 'visible',
-    unit: '%',
-    scale: 100,
-    format: percent,
-    error: true,
-    what: 'pixels in which a viewer would see the difference',
   },
   {
     key: 'shaded_points',

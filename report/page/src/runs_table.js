@@ -109,7 +109,8 @@ export function showRuns(root, table, images, state) {
       el(
         'button',
         {type: 'button', title: column.what, onclick: () => sort(column)},
-        el('span', {}, column.name),
+        el('span', {class: 'arrow', 'aria-hidden': 'true'}),
+        column.name,
         UNIT_NAMES[column.unit] ? el('small', {}, UNIT_NAMES[column.unit]) : null,
       ),
     );

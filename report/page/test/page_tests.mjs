@@ -300,6 +300,37 @@ export const pageTests = [
   ],
 
   [
+    'headings end where their numbers do, and time and error are seen on a telephone',
+    async (page) => {
+      await page.click('.runs th[data-column=cpu_s] button'); // the arrow takes no room
+      for (const width of [1280, 390]) {
+        await page.setViewportSize({width, height: 900});
+        const gaps = await page.evaluate(() => {
+          const end = (cell) => {
+            const range = document.createRange();
+            range.selectNodeContents(cell);
+            return Math.max(...[...range.getClientRects()].map((box) => box.right));
+          };
+          const numbers = document.querySelectorAll('.runs tbody tr:first-child td.number');
+          return [...document.querySelectorAll('.runs th.number')].map(
+            (heading, i) => end(heading.querySelector('button')) - end(numbers[i]),
+          );
+        });
+        assert.equal(gaps.length, 10);
+        assert.ok(Math.max(...gaps.map(Math.abs)) <= 1, `at ${width}: ${gaps}`);
+      }
+      const [frame, error] = await page.$eval('.runs', (runs) => {
+        const edge = runs.parentElement.getBoundingClientRect().right;
+        return ['frame_s', 'rel_mse'].map(
+          (column) =>
+            edge - runs.querySelector(`th[data-column=${column}]`).getBoundingClientRect().right,
+        );
+      });
+      assert.ok(frame > error && error >= 0, `${frame}, ${error}`);
+    },
+  ],
+
+  [
     'tables besides show their verdicts without scrolling, next to what they are about',
     async (page) => {
       for (const width of [390, 1280, 1920]) {
