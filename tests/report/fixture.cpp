@@ -15,7 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int run_count = 13, strange_run = 5, markup_run = 8, failed_run = 12, left_out_run = 13;
+constexpr int run_count = 13, strange_run = 5, markup_run = 8, large_run = 11, failed_run = 12,
+              left_out_run = 13;
 
 bool is_ok(int run) { return run != failed_run && run != left_out_run; }
 bool has_heatmap(int run) { return run == 1 || run == 4; }
@@ -150,14 +151,14 @@ Json extremes() {
 
 }  // namespace
 
-Image gradient(double gain) {
-  Image image(width, height);
+Image gradient(double gain, int columns, int rows) {
+  Image image(columns, rows);
   for (const char* name : {"R", "G", "B"}) image.add_channel(name);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < rows; ++y)
+    for (int x = 0; x < columns; ++x) {
       const size_t i = image.index(x, y);
-      image.channels[0].values[i] = float(gain * (x + 0.5) / width);
-      image.channels[1].values[i] = float(gain * (y + 0.5) / height);
+      image.channels[0].values[i] = float(gain * (x + 0.5) / columns);
+      image.channels[1].values[i] = float(gain * (y + 0.5) / rows);
       image.channels[2].values[i] = float(gain / 4);
     }
   return image;
@@ -203,8 +204,10 @@ void write(const std::filesystem::path& folder) {
   for (int run = 1; run <= run_count; ++run) {
     const double gain = 1.0 + run / 16.0;
     if (is_ok(run))
-      write_exr((folder / image_name(run)).string(),
-                run == strange_run ? strange_image(gain) : gradient(gain));
+      write_exr((folder / image_name(run)).string(), run == strange_run ? strange_image(gain)
+                                                     : run == large_run
+                                                         ? gradient(gain, large_width, large_height)
+                                                         : gradient(gain));
     if (has_heatmap(run)) write_exr((folder / heatmap_name(run)).string(), heatmap(run));
   }
   std::ofstream(folder / "trade.json") << table().dump(1);

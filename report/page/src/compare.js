@@ -63,6 +63,19 @@ function exposureControl(state) {
   );
 }
 
+/** Says that large images are not held at their own size. */
+function reduced(catalogue) {
+  const numbers = Object.values(catalogue.images).map(({reduction}) => reduction ?? 1);
+  const most = Math.max(1, ...numbers);
+  if (most === 1) return null;
+  const some = numbers.some((reduction) => reduction !== most) ? ' up to' : '';
+  return el(
+    'p',
+    {class: 'note reduced'},
+    `Large images are held smaller here: a pixel is the mean of${some} ${most} × ${most} pixels, and its error that of the mean, which is less noisy. The numbers of the runs are those of the full images.`,
+  );
+}
+
 function leftOut(catalogue) {
   const {left_out: images = [], budget_bytes: budget} = catalogue;
   if (images.length === 0) return null;
@@ -148,6 +161,7 @@ export function showCompare(root, table, catalogue, images, state) {
     stage.root,
     reading,
     el('div', {class: 'layer-legends'}, legends),
+    reduced(catalogue) ?? '',
     leftOut(catalogue) ?? '',
   );
   reading.textContent = HINT;

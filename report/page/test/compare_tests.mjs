@@ -300,6 +300,26 @@ export const compareTests = [
   ],
 
   [
+    'an image larger than a page holds is shown smaller, which the page says',
+    async (page) => {
+      assert.match(await page.innerText('#compare .reduced'), /mean of up to 2 × 2 pixels/);
+      await choose(page, 'Image A', '0011');
+      await choose(page, 'Image B', '0011');
+      const {ratio, middle} = await page.$eval('.stage canvas', (canvas) => ({
+        ratio: canvas.clientWidth / canvas.clientHeight,
+        middle: [
+          ...canvas
+            .getContext('2d')
+            .getImageData(Math.floor(canvas.width / 2), Math.floor(canvas.height / 4), 1, 1).data,
+        ].slice(0, 3),
+      }));
+      assert.ok(Math.abs(ratio / (1282 / 4) - 1) < 0.3, `${ratio}`);
+      const gain = 1 + 11 / 16; // at half the width, in the upper of the two rows left of four
+      near(middle, [gain / 2, gain / 4, gain / 4].map(srgb), 2, 'the middle');
+    },
+  ],
+
+  [
     'the layout stays while one looks around',
     async (page) => {
       const tops = () =>
