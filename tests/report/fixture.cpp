@@ -67,7 +67,7 @@ Json ok_run(int run) {
   const double seconds = 0.05 * double(1 << (run - 1) % 3) * (1.0 + 0.3 * ((run * 5) % 7));
   const double error = 0.02 / double(1 << 2 * ((run - 1) % 3)) * (1.0 + 0.1 * ((run * 3) % 5));
   return {{"frame_s", seconds},
-          {"frame_s_all", {seconds, seconds * 1.01}},
+          {"frame_s_all", run == 6 ? Json{seconds * 0.97, seconds * 1.01} : Json{seconds}},
           {"wall_s", seconds + 0.1},
           {"cpu_s", seconds * 1.9},
           {"peak_bytes", 40'000'000 + run * 1'000'000},
@@ -79,6 +79,7 @@ Json ok_run(int run) {
           {"rel_mse", error},
           {"visible", run == 3 ? 0.0 : error},
           {"pareto", run <= 3},
+          {"limited_by_reference", run == 3},
           {"image", image_name(run)},
           {"heatmaps", has_heatmap(run) ? Json{{"tests", heatmap_name(run)}} : Json::object()}};
 }

@@ -111,6 +111,20 @@ export const measure = (key) => MEASURES.find((candidate) => candidate.key === k
 /** "frame time (s)". */
 export const title = (of) => (of.unit ? `${of.name} (${of.unit})` : of.name);
 
+/** Half of what the repeats' frame times span, over their median; null when it ran once. */
+export function spread(run) {
+  const times = run.frame_s_all ?? [];
+  if (times.length < 2 || !(run.frame_s > 0)) return null;
+  return (Math.max(...times) - Math.min(...times)) / 2 / run.frame_s;
+}
+
+/** How sure a frame time is: " ±3 %", or that it was taken once. */
+export function spreadText(run) {
+  const share = spread(run);
+  if (share !== null) return ` ±${significant(share * 100, 1)} %`;
+  return run.frame_s_all?.length === 1 ? ', once' : '';
+}
+
 /** "1.43 s", "0.00204". */
 export function written(of, run) {
   const text = of.format(run[of.key]);

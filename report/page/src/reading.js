@@ -1,6 +1,6 @@
 // What the plot says of the run under the pointer. Its height does not depend on what it says.
 import {el} from './dom.js';
-import {MEASURES, written} from './measures.js';
+import {MEASURES, spreadText, written} from './measures.js';
 
 const SHOWN = [
   'frame_s',
@@ -45,12 +45,8 @@ export function createReading(table, state) {
       ? (run.options ?? []).join(' ')
       : 'click: image A, with shift: B; arrow keys: next run';
     for (const [key, cell] of values) {
-      cell.textContent = run
-        ? written(
-            MEASURES.find((of) => of.key === key),
-            run,
-          )
-        : '–';
+      const of = MEASURES.find((candidate) => candidate.key === key);
+      cell.textContent = run ? written(of, run) + (key === 'frame_s' ? spreadText(run) : '') : '–';
     }
   }
   state.listen(['read'], show);

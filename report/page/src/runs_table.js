@@ -7,6 +7,8 @@ import {countsText, OUTCOMES, outcome, reasonText} from './outcome.js';
 
 const UNIT_NAMES = {s: 's', '%': '%', MiB: 'MiB'};
 
+const LIMITED = '~ '; // as in the table that is printed
+
 const COLUMNS = [
   {
     key: 'id',
@@ -51,7 +53,12 @@ const rank = (run) => OUTCOMES.indexOf(outcome(run));
 function cells(run) {
   if (run.ok) {
     return COLUMNS.map((column) =>
-      el('td', {class: column.number ? 'number' : column.key}, column.text(run)),
+      el(
+        'td',
+        {class: column.number ? 'number' : column.key},
+        column.key === 'rel_mse' && run.limited_by_reference ? LIMITED : '',
+        column.text(run),
+      ),
     );
   }
   return [
@@ -138,6 +145,7 @@ export function showRuns(root, table, images, state) {
   }
 
   body.append(...rows.values());
+  const limited = table.runs.some((run) => run.ok && run.limited_by_reference);
   root.append(
     el(
       'h2',
@@ -146,7 +154,7 @@ export function showRuns(root, table, images, state) {
       el(
         'small',
         {},
-        ` ${countsText(table.runs)}; a click on a heading sorts, what is not known last`,
+        ` ${countsText(table.runs)}; a click on a heading sorts, what is not known last${limited ? `; ${LIMITED.trim()}: the reference's own error hides that of the run` : ''}`,
       ),
     ),
     el(

@@ -34,12 +34,16 @@ export function createSeriesLegend({onchoose, onpoint}) {
   const root = el('div', {class: 'legend', role: 'group', 'aria-label': 'Series shown'});
   const chosen = new Set();
   let keys = [];
-  const all = el('button', {type: 'button', class: 'all', onclick: () => choose([], true)}, 'show all');
+  const all = el(
+    'button',
+    {type: 'button', class: 'key all', title: 'Every series', onclick: () => choose([], true)},
+    'all',
+  );
 
   function mark() {
     for (const [name, key] of keys) key.setAttribute('aria-pressed', String(chosen.has(name)));
     root.classList.toggle('some', chosen.size > 0);
-    all.disabled = chosen.size === 0;
+    all.setAttribute('aria-pressed', String(chosen.size === 0));
   }
 
   /** Adds series to the chosen ones; takes them away where all of them were. */
@@ -109,8 +113,8 @@ export function createSeriesLegend({onchoose, onpoint}) {
       keys = [];
       root.replaceChildren(
         el('span', {class: 'key front-key'}, 'Pareto front'),
-        ...families(series).map(family),
         all,
+        ...families(series).map(family),
       );
       mark();
     },

@@ -15,12 +15,14 @@ function machineText({cpu, cores}) {
   return [cpu, cores && `${cores} ${cores === 1 ? 'core' : 'cores'}`].filter(Boolean).join(', ');
 }
 
-function referenceText(reference) {
+function referenceText({reference, runs}) {
   const error =
     typeof reference.rel_mse === 'number'
       ? `RelMSE about ${significant(reference.rel_mse)} by its own estimate: errors near it cannot be told from it`
       : 'Its own error is not known';
-  return `${reference.spp ?? '?'} samples per pixel, ${significant(reference.frame_s)} s. ${error}.`;
+  const limited = runs.filter((run) => run.ok && run.limited_by_reference).length;
+  const hidden = limited ? ` It hides that of ${limited} ${limited === 1 ? 'run' : 'runs'}.` : '';
+  return `${reference.spp ?? '?'} samples per pixel, ${significant(reference.frame_s)} s. ${error}.${hidden}`;
 }
 
 /** A list of which the first `shown` items are open and the others folded. */
@@ -97,7 +99,7 @@ export function showSummary(root, table) {
     'dl',
     {class: 'facts'},
     fact('Runs', countsText(table.runs)),
-    fact('Reference', referenceText(table.reference)),
+    fact('Reference', referenceText(table)),
     fact('Machine', machineText(table.machine)),
   );
   root.append(

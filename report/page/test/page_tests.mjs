@@ -61,7 +61,7 @@ export const pageTests = [
       assert.equal(await page.locator('.words li:visible').count(), 4);
       assert.equal(await page.innerText('.words summary'), '2 more findings');
       const plot = await page.locator('.plot-frame').boundingBox();
-      assert.ok(plot.y < 400, `the plot starts at ${plot.y}`);
+      assert.ok(plot.y < 450, `the plot starts at ${plot.y}`);
       await page.click('.words summary');
       assert.match(await page.innerText('.words'), /Finding 6 of the sweep/);
     },
@@ -157,9 +157,17 @@ export const pageTests = [
       const read = async (key) => page.innerText(`.reading dd[data-measure=${key}]`);
       assert.equal(parseFloat(await read('frame_s')), Number(run.frame_s.toPrecision(3)));
       assert.equal(parseFloat(await read('rel_mse')), Number(run.rel_mse.toPrecision(3)));
+      assert.match(await read('frame_s'), / s ±2 %$/); // half of the 4 % that its times span
+      const cut = await page.$$eval('.reading dl div', (values) =>
+        values.filter((value) => value.scrollWidth > value.clientWidth).map((v) => v.innerText),
+      );
+      assert.deepEqual(cut, []);
       assert.equal(await read('peak_bytes'), `${(run.peak_bytes / 2 ** 20).toFixed(1)} MiB`);
       await page.mouse.click(...at);
       assert.equal(await page.inputValue('select[aria-label="Image A"]'), '0006');
+      await page.hover('.point[data-run="0004"]', {force: true});
+      assert.match(await read('frame_s'), / s, once$/);
+      await page.mouse.move(...at);
       await page.keyboard.down('Shift');
       await page.mouse.click(...at);
       await page.keyboard.up('Shift');
@@ -296,6 +304,22 @@ export const pageTests = [
       assert.equal(await page.locator('.point').count(), 10);
       assert.equal(await page.locator('.axis .zero').count(), 1);
       assert.match(await page.innerText('#plot .note'), /^1 of 11 runs/);
+    },
+  ],
+
+  [
+    'a run whose error the reference hides is marked',
+    async (page) => {
+      assert.match(await page.innerText('#summary .facts'), /It hides that of 1 run\./);
+      const {runs} = await tableOf(page);
+      const marked = await page.$$eval('.runs tbody tr', (rows) =>
+        rows.filter((row) => /~ \d/.test(row.innerText)).map((row) => row.dataset.run),
+      );
+      assert.deepEqual(
+        marked,
+        runs.filter((run) => run.limited_by_reference).map((run) => run.id),
+      );
+      assert.match(await page.innerText('#runs h2'), /~: the reference's own error/);
     },
   ],
 
