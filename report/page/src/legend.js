@@ -70,7 +70,11 @@ const CONTENT = {
     ]),
   ],
   heat: (legend) => [
-    el('p', {}, `${legend.unit}, logarithmic, black is none; mean ${significant(legend.scale.mean)}`),
+    el(
+      'p',
+      {},
+      `${legend.unit}, logarithmic, black is none; mean ${significant(legend.scale.mean)}`,
+    ),
     heatBar(legend),
   ],
 };

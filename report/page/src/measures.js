@@ -1,7 +1,10 @@
 // What was measured of a run: how it is called, its unit, how it is written.
 import {significant, count, mebibytes, percent} from './format.js';
 
-/** Those looked for first come first. `scale` turns a value of the table into `unit`; `short`: its name in a heading; `what` explains it. */
+/**
+ * Those looked for first come first. `scale` turns a value of the table into `unit`; `short`: its name
+ * in a heading; `what` explains it.
+ */
 export const MEASURES = [
   {
     key: 'frame_s',

@@ -1,4 +1,4 @@
-// What became of a run: done, failed, or never run, as a budget was spent or someone ended the sweep.
+// What became of a run: done, failed, or never run, as a budget was spent or the sweep ended.
 
 export const OUTCOMES = ['ok', 'failed', 'not-run'];
 

@@ -7,7 +7,7 @@ import {countsText, OUTCOMES, outcome, reasonText} from './outcome.js';
 
 const UNIT_NAMES = {s: 's', '%': '%', MiB: 'MiB'};
 
-const LIMITED = '~ '; // as in the table that is printed
+const LIMITED = '~'; // as in the table that is printed
 
 const COLUMNS = [
   {
@@ -56,7 +56,7 @@ function cells(run) {
       el(
         'td',
         {class: column.number ? 'number' : column.key},
-        column.key === 'rel_mse' && run.limited_by_reference ? LIMITED : '',
+        column.key === 'rel_mse' && run.limited_by_reference ? `${LIMITED} ` : '',
         column.text(run),
       ),
     );
@@ -70,6 +70,12 @@ function cells(run) {
       reasonText(run),
     ),
   ];
+}
+
+function headingText(runs) {
+  const limited = runs.some((run) => run.ok && run.limited_by_reference);
+  const legend = limited ? `; ${LIMITED}: the reference's own error hides that of the run` : '';
+  return ` ${countsText(runs)}; a click on a heading sorts, what is not known last${legend}`;
 }
 
 export function showRuns(root, table, images, state) {
@@ -145,7 +151,6 @@ export function showRuns(root, table, images, state) {
   }
 
   body.append(...rows.values());
-  const limited = table.runs.some((run) => run.ok && run.limited_by_reference);
   root.append(
     el(
       'h2',
@@ -154,7 +159,7 @@ export function showRuns(root, table, images, state) {
       el(
         'small',
         {},
-        ` ${countsText(table.runs)}; a click on a heading sorts, what is not known last${limited ? `; ${LIMITED.trim()}: the reference's own error hides that of the run` : ''}`,
+        headingText(table.runs),
       ),
     ),
     el(

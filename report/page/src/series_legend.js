@@ -113,7 +113,7 @@ export function createSeriesLegend({onchoose, onpoint}) {
       keys = [];
       root.replaceChildren(
         el('span', {class: 'key front-key'}, 'Pareto front'),
-        all,
+        series.length > 1 ? all : '',
         ...families(series).map(family),
       );
       mark();

@@ -45,7 +45,8 @@ function foldedList(items, shown, what) {
 function noteItem(note) {
   if (note.length <= LONG_NOTE) return el('li', {}, note);
   const start = note.slice(0, note.lastIndexOf(' ', LONG_NOTE)).replace(/[,;:]?$/, ' …');
-  return el('li', {class: 'long'}, el('details', {}, el('summary', {}, start), el('p', {}, note)));
+  const all = el('details', {}, el('summary', {}, start), el('p', {}, note));
+  return el('li', {class: 'long'}, all);
 }
 
 function knobItem(knob) {
