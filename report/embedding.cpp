@@ -1,9 +1,12 @@
 #include "report/embedding.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "images/exr.h"
+#include "report/scale_down.h"
 
 namespace tessera {
 namespace {
@@ -60,12 +63,18 @@ std::string heatmap_channel_of(const Image& image, const ReportImage& wanted) {
   throw Error(fmt::format("{}: expected a channel 'heatmap.{}'", wanted.file, wanted.measure));
 }
 
-EncodedImage encode(const ReportImage& wanted, const std::filesystem::path& path) {
-  const Image image = read_exr(path.string());
-  if (!wanted.measure.empty()) return encode_scalar(image, heatmap_channel_of(image, wanted));
-  if (!image.find_channel("R") || !image.find_channel("G") || !image.find_channel("B"))
+/// Reads and encodes an image, made smaller where it is large.
+void encode(ReportImage& wanted, const std::filesystem::path& path) {
+  Image image = read_exr(path.string());
+  std::vector<std::string> channels = {"R", "G", "B"};
+  if (!wanted.measure.empty())
+    channels = {heatmap_channel_of(image, wanted)};
+  else if (!std::ranges::all_of(channels, [&](const auto& c) { return image.find_channel(c); }))
     throw Error(fmt::format("{}: expected channels R, G and B", path.string()));
-  return encode_colour(image);
+  wanted.reduction = report_reduction(image);
+  if (wanted.reduction > 1) image = scaled_down(image, wanted.reduction, channels);
+  wanted.encoded =
+      wanted.measure.empty() ? encode_colour(image) : encode_scalar(image, channels[0]);
 }
 
 }  // namespace
@@ -97,7 +106,7 @@ Embedding embed_images(const Json& table, const std::filesystem::path& folder,
       throw Error(fmt::format("{} is missing: the image of the {}", path.string(), image.what));
     bool& kind_is_full = full[image.measure.empty() ? 0 : 1];
     if (!kind_is_full) {
-      image.encoded = encode(image, path);
+      encode(image, path);
       kind_is_full = embedding.bytes + image.encoded.text.size() > budget_bytes;
     }
     if (kind_is_full) {

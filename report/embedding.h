@@ -19,6 +19,7 @@ struct ReportImage {
   std::string what;     ///< for people: "reference", "run 0007", "tests of run 0007"
   std::string measure;  ///< of a heat map: tests, shading, extra; empty for a colour image
   EncodedImage encoded;
+  int reduction = 1;  ///< n: each pixel encoded is the mean of n x n of the file's
 };
 
 /// What goes into a page, and what was left out because it would have grown too large.
@@ -32,7 +33,8 @@ struct Embedding {
 /// maps. Not read yet.
 std::vector<ReportImage> images_by_importance(const nlohmann::ordered_json& table);
 
-/// Reads and encodes them in that order, up to `budget_bytes` of text. The first image of a size
+/// Reads and encodes them in that order, large ones made smaller (report/scale_down.h), up to
+/// `budget_bytes` of text. The first image of a size
 /// that no longer fits ends the images in colour; heat maps, which are smaller, may go on, and end
 /// in the same way. Throws Error when a file is missing, left out or not, or is no readable image.
 Embedding embed_images(const nlohmann::ordered_json& table, const std::filesystem::path& folder,

@@ -21,6 +21,7 @@ Json describe(const Embedding& embedding, size_t budget_bytes) {
     embedded[image.key] = {{"element", fmt::format("pixels-{}", number++)},
                            {"width", image.encoded.width},
                            {"height", image.encoded.height},
+                           {"reduction", image.reduction},
                            {"kind", image.measure.empty() ? "colour" : "scalar"}};
   for (const ReportImage& image : embedding.left_out)
     left_out.push_back({{"key", image.key}, {"what", image.what}});

@@ -8,7 +8,8 @@
 ///
 /// The data are in it as inert script elements, which no text inside them can end:
 ///   trade-table    the table as it came, JSON
-///   trade-images   JSON: which images are embedded, their size, which were left out
+///   trade-images   JSON: which images are embedded, their size, of how many pixels each way those
+///                  of large ones are the means, which were left out
 ///   pixels-N       the text of an EncodedImage (report/encode.h)
 
 #include <cstddef>
@@ -19,7 +20,8 @@
 
 namespace tessera {
 
-/// Bytes of text that images may take in a page: about forty of 480 x 270, or four of 1920 x 1080.
+/// Bytes of text that images may take in a page: about eighty of 480 x 270, or twenty of 1920 x
+/// 1080, which are held at half their size.
 inline constexpr size_t default_report_image_bytes = 32'000'000;
 
 /// Writes one self-contained HTML page. `table`: a trade table; files in it are relative to

@@ -61,7 +61,11 @@ TEST_CASE("A report holds its table and images, whatever its text says") {
   CHECK(images["images"].size() == 1 + 11 + 2);
   CHECK(images["left_out"].empty());
   CHECK(images["images"]["runs/0004.exr"]["width"] == fixture::width);
+  CHECK(images["images"]["runs/0004.exr"]["reduction"] == 1);
   CHECK(images["images"]["runs/0004.tests.exr#tests"]["kind"] == "scalar");
+  CHECK(images["images"]["runs/0011.exr"]["width"] == fixture::large_width / 2);
+  CHECK(images["images"]["runs/0011.exr"]["height"] == fixture::large_height / 2);
+  CHECK(images["images"]["runs/0011.exr"]["reduction"] == 2);
   for (const auto& [key, image] : images["images"].items())
     CHECK(element_text(html, image["element"]).size() > 20);
   // As many scripts are closed as opened: two of data, one for each image, the page's own.

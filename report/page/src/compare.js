@@ -8,6 +8,8 @@ import {REFERENCE} from './state.js';
 
 const RANGES = [0.01, 0.03, 0.1, 0.3, 1, 3, 10];
 
+const HINT = 'Point at a pixel to read it; drag pans; after a click the wheel zooms';
+
 const viewName = {a: 'viewA', b: 'viewB'};
 
 function sideControls(side, table, images, state) {
@@ -61,6 +63,19 @@ function exposureControl(state) {
   );
 }
 
+/** Says that large images are not held at their own size. */
+function reduced(catalogue) {
+  const numbers = Object.values(catalogue.images).map(({reduction}) => reduction ?? 1);
+  const most = Math.max(1, ...numbers);
+  if (most === 1) return null;
+  const some = numbers.some((reduction) => reduction !== most) ? ' up to' : '';
+  return el(
+    'p',
+    {class: 'note reduced'},
+    `Large images are held smaller here: a pixel is the mean of${some} ${most} × ${most} pixels, and its error that of the mean, which is less noisy. The numbers of the runs are those of the full images.`,
+  );
+}
+
 function leftOut(catalogue) {
   const {left_out: images = [], budget_bytes: budget} = catalogue;
   if (images.length === 0) return null;
@@ -87,7 +102,7 @@ export function showCompare(root, table, catalogue, images, state) {
       pixel && layers.map((layer, i) => `${'AB'[i]} ${layer.read ? readAt(layer, pixel) : '–'}`);
     reading.textContent = pixel
       ? `(${pixel.x}, ${pixel.y})   ${values.join('   ')}`
-      : 'Point at a pixel to read it; drag pans, the wheel zooms';
+      : HINT;
   });
 
   const readAt = (layer, {x, y}) =>
@@ -146,9 +161,10 @@ export function showCompare(root, table, catalogue, images, state) {
     stage.root,
     reading,
     el('div', {class: 'layer-legends'}, legends),
+    reduced(catalogue) ?? '',
     leftOut(catalogue) ?? '',
   );
-  reading.textContent = 'Point at a pixel to read it; drag pans, the wheel zooms';
+  reading.textContent = HINT;
   state.listen(['a', 'b', 'viewA', 'viewB', 'exposure', 'range'], update);
   update();
 }

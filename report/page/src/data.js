@@ -10,6 +10,7 @@ export function readTable() {
     runs: table.runs ?? [],
     knobs: table.knobs ?? [],
     words: table.words ?? [],
+    notes: table.notes ?? [],
     tables: table.tables ?? [],
     machine: table.machine ?? {},
     reference: table.reference ?? {},

@@ -1,4 +1,5 @@
 // What colours of a layer mean. All legends are of one height.
+import {HEAT_FLOOR} from './colour.js';
 import {el} from './dom.js';
 import {significant, stops} from './format.js';
 
@@ -10,12 +11,12 @@ function gradient(ramp, from = 0) {
   return `linear-gradient(to right, ${colours.join(', ')})`;
 }
 
-/** A bar with ticks: [position in 0..1, text]. */
-function scaleBar(ramp, ticks) {
+/** A bar of the ramp from `from` on, with ticks: [position in 0..1, text]. */
+function scaleBar(ramp, ticks, from = 0) {
   return el(
     'div',
     {class: 'scale'},
-    el('div', {class: 'bar', style: `background: ${gradient(ramp)}`}),
+    el('div', {class: 'bar', style: `background: ${gradient(ramp, from)}`}),
     el(
       'div',
       {class: 'ticks'},
@@ -28,13 +29,20 @@ function scaleBar(ramp, ticks) {
 
 const asPercent = (value) => `${significant(value * 100, 2).replace(/\.0$/, '')} %`;
 
-function heatTicks({scale, position}) {
-  if (!(scale.highest > 0)) return [[0, '0']];
-  const ticks = [[0, '0']];
-  const middle = Math.sqrt(scale.lowest * scale.highest);
-  for (const value of new Set([scale.lowest, middle, scale.highest]))
-    ticks.push([position(value), significant(value)]);
-  return ticks;
+/** Values above zero, from one end of the bar to the other: zero is black, and said in words. */
+function heatTicks({scale}) {
+  const {lowest, highest} = scale;
+  if (!(highest > lowest)) return [[0, significant(highest)]];
+  return [
+    [0, significant(lowest)],
+    [0.5, significant(Math.sqrt(lowest * highest))],
+    [1, significant(highest)],
+  ];
+}
+
+function heatBar({scale, ramp}) {
+  if (!(scale.highest > 0)) return null; // all black
+  return scaleBar(ramp, heatTicks({scale}), scale.highest > scale.lowest ? HEAT_FLOOR : 1);
 }
 
 const CONTENT = {
@@ -62,8 +70,12 @@ const CONTENT = {
     ]),
   ],
   heat: (legend) => [
-    el('p', {}, `${legend.unit}, logarithmic; mean ${significant(legend.scale.mean)}`),
-    scaleBar(legend.ramp, heatTicks(legend)),
+    el(
+      'p',
+      {},
+      `${legend.unit}, logarithmic, black is none; mean ${significant(legend.scale.mean)}`,
+    ),
+    heatBar(legend),
   ],
 };
 
@@ -73,6 +85,6 @@ export function showLegend(root, letter, layer) {
     el('b', {title: layer.name}, `${letter}  ${layer.name}`),
     ...(layer.problem
       ? [el('p', {class: 'problem'}, layer.problem)]
-      : CONTENT[layer.legend.kind](layer.legend)),
+      : CONTENT[layer.legend.kind](layer.legend).filter(Boolean)),
   );
 }

@@ -1,7 +1,10 @@
 // What was measured of a run: how it is called, its unit, how it is written.
 import {significant, count, mebibytes, percent} from './format.js';
 
-/** `scale` turns a value of the table into `unit`; `short`: its name in a heading; `what` explains it. */
+/**
+ * Those looked for first come first. `scale` turns a value of the table into `unit`; `short`: its name
+ * in a heading; `what` explains it.
+ */
 export const MEASURES = [
   {
     key: 'frame_s',
@@ -12,6 +15,36 @@ export const MEASURES = [
     format: significant,
     cost: true,
     what: 'time to render the frame, wall clock, median of the repeats',
+  },
+  {
+    key: 'rel_mse',
+    name: 'relMSE',
+    short: 'relMSE',
+    unit: '',
+    scale: 1,
+    format: significant,
+    error: true,
+    what: 'mean of (a − b)² / (b² + 0.01), b the reference',
+  },
+  {
+    key: 'visible',
+    name: 'visible',
+    short: 'visible',
+    unit: '%',
+    scale: 100,
+    format: percent,
+    error: true,
+    what: 'pixels in which a viewer would see the difference',
+  },
+  {
+    key: 'rmse',
+    name: 'RMSE',
+    short: 'RMSE',
+    unit: '',
+    scale: 1,
+    format: significant,
+    error: true,
+    what: 'root of the mean squared difference from the reference',
   },
   {
     key: 'cpu_s',
@@ -32,36 +65,6 @@ export const MEASURES = [
     format: mebibytes,
     cost: true,
     what: 'most memory resident at once',
-  },
-  {
-    key: 'rel_mse',
-    name: 'relMSE',
-    short: 'relMSE',
-    unit: '',
-    scale: 1,
-    format: significant,
-    error: true,
-    what: 'mean of (a − b)² / (b² + 0.01), b the reference',
-  },
-  {
-    key: 'rmse',
-    name: 'RMSE',
-    short: 'RMSE',
-    unit: '',
-    scale: 1,
-    format: significant,
-    error: true,
-    what: 'root of the mean squared difference from the reference',
-  },
-  {
-    key: 'visible',
-    name: 'visible',
-    short: 'visible',
-    unit: '%',
-    scale: 100,
-    format: percent,
-    error: true,
-    what: 'pixels in which a viewer would see the difference',
   },
   {
     key: 'shaded_points',
@@ -110,6 +113,20 @@ export const measure = (key) => MEASURES.find((candidate) => candidate.key === k
 
 /** "frame time (s)". */
 export const title = (of) => (of.unit ? `${of.name} (${of.unit})` : of.name);
+
+/** Half of what the repeats' frame times span, over their median; null when it ran once. */
+export function spread(run) {
+  const times = run.frame_s_all ?? [];
+  if (times.length < 2 || !(run.frame_s > 0)) return null;
+  return (Math.max(...times) - Math.min(...times)) / 2 / run.frame_s;
+}
+
+/** How sure a frame time is: " ±3 %", or that it was taken once. */
+export function spreadText(run) {
+  const share = spread(run);
+  if (share !== null) return ` ±${significant(share * 100, 1)} %`;
+  return run.frame_s_all?.length === 1 ? ', once' : '';
+}
 
 /** "1.43 s", "0.00204". */
 export function written(of, run) {

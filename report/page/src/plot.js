@@ -1,42 +1,27 @@
 // Error against cost, log-log: a series for each setting, the Pareto front, a reading of one run.
 import {select as pick} from 'd3-selection';
-import {
-  curveStepAfter,
-  line,
-  symbol,
-  symbolCircle,
-  symbolCross,
-  symbolDiamond,
-  symbolSquare,
-  symbolTriangle,
-} from 'd3-shape';
+import {curveStepAfter, line} from 'd3-shape';
 import {drawAxes, hasPlace, logScale} from './axes.js';
 import {el, labelled, select} from './dom.js';
 import {COSTS, ERRORS, measure, title} from './measures.js';
 import {createReading} from './reading.js';
+import {neighbour} from './roving.js';
 import {groupings, paretoFront, seriesOf} from './series.js';
+import {createSeriesLegend} from './series_legend.js';
 
 const HEIGHT = 380;
 const REACH = 28; // pixels within which a pointer finds a point
-const SYMBOLS = [symbolCircle, symbolSquare, symbolTriangle, symbolDiamond, symbolCross];
-const COLOURS = 10; // custom properties --series-0 ... of style.css
-
-/** The first series, the default, has the colour of text; others one of ten colours, then shapes. */
-function styleOf(index) {
-  if (index === 0) return {colour: 'var(--ink)', shape: symbol(symbolCircle, 64)()};
-  const shape = SYMBOLS[(index - 1 + Math.floor((index - 1) / COLOURS)) % SYMBOLS.length];
-  return {colour: `var(--series-${(index - 1) % COLOURS})`, shape: symbol(shape, 52)()};
-}
+const MANY = 8; // series, from which on their lines step back behind their points
 
 export function showPlot(root, table, state) {
   const svg = pick(el('div'))
     .append('svg')
     .attr('role', 'group')
-    .attr('aria-label', 'Plot of the runs');
+    .attr('aria-label', 'Plot of the runs; arrow keys go from one to the next');
   const frame = el('div', {class: 'plot-frame', style: `height:${HEIGHT}px`}, svg.node());
-  const legend = el('div', {class: 'legend'});
+  const legend = createSeriesLegend({onchoose: draw, onpoint: emphasise});
   const note = el('p', {class: 'note'});
-  const hidden = new Set();
+  let series = [];
   let points = [];
 
   const axisSelect = (name, choices) =>
@@ -55,14 +40,11 @@ export function showPlot(root, table, state) {
       labelled('up', axisSelect('y', ERRORS)),
       labelled(
         'colours',
-        select('Colours', groupings(table), '', (value) => {
-          hidden.clear();
-          state.set({grouping: value});
-        }),
+        select('Colours', groupings(table), '', (value) => state.set({grouping: value})),
       ),
     ),
     frame,
-    legend,
+    legend.root,
     createReading(table, state),
     note,
   );
@@ -75,10 +57,6 @@ export function showPlot(root, table, state) {
     const runs = table.runs.filter((run) => run.ok);
     const x = logScale(runs.filter(placed), xOf, box.left, box.right);
     const y = logScale(runs.filter(placed), yOf, box.bottom, box.top);
-    const series = seriesOf(table, state.get('grouping')).map((one, index) => ({
-      ...one,
-      ...styleOf(index),
-    }));
 
     svg.attr('width', width).attr('height', HEIGHT).selectAll('*').remove();
     const axes = [0, 1].map((axis) =>
@@ -104,22 +82,7 @@ export function showPlot(root, table, state) {
       .text(title(yOf));
 
     drawFront(frontOf(runs.filter(placed), xOf.key, yOf.key), x, y, box);
-    const visible = series.filter((one) => !hidden.has(one.name));
-    const path = line(x.place, y.place);
-    for (const one of visible) {
-      for (const joined of one.lines) {
-        svg
-          .append('path')
-          .attr('class', 'series-line')
-          .attr('d', path(joined.filter(placed)))
-          .style('stroke', one.colour);
-      }
-    }
-    points = visible.flatMap((one) =>
-      one.runs.filter(placed).map((run) => ({run, one, x: x.place(run), y: y.place(run)})),
-    );
-    drawPoints();
-    drawLegend(series);
+    drawSeries(placed, x, y);
     const missing = runs.length - runs.filter(placed).length;
     note.textContent = missing
       ? `${missing} of ${runs.length} runs have no value on these axes and are not shown.`
@@ -141,25 +104,62 @@ export function showPlot(root, table, state) {
     svg.append('path').attr('class', 'front').attr('d', line().curve(curveStepAfter)(corners));
   }
 
+  /** Series that are not chosen leave dots behind, which take part in nothing. */
+  function drawSeries(placed, x, y) {
+    const shown = series.filter((one) => legend.shows(one.name)).reverse(); // the default on top
+    const ghosts = series.filter((one) => !legend.shows(one.name));
+    const path = line(x.place, y.place);
+    svg.classed('many', shown.length > MANY);
+    svg
+      .append('g')
+      .selectAll('circle')
+      .data(ghosts.flatMap((one) => one.runs.filter(placed)))
+      .join('circle')
+      .attr('class', 'ghost')
+      .attr('cx', x.place)
+      .attr('cy', y.place)
+      .attr('r', 2);
+    svg
+      .append('g')
+      .selectAll('path')
+      .data(shown.flatMap((one) => one.lines.map((joined) => ({one, joined}))))
+      .join('path')
+      .attr('class', ({one}) => `series-line ${one.kind}`)
+      .attr('data-series', ({one}) => one.name)
+      .attr('d', ({joined}) => path(joined.filter(placed)))
+      .style('stroke', ({one}) => one.colour);
+    points = shown.flatMap((one) =>
+      one.runs.filter(placed).map((run) => ({run, one, x: x.place(run), y: y.place(run)})),
+    );
+    drawPoints();
+  }
+
   function drawPoints() {
     svg
       .append('g')
       .selectAll('path')
       .data(points)
       .join('path')
-      .attr('class', 'point')
+      .attr('class', (point) => `point ${point.one.kind}`)
+      .attr('data-series', (point) => point.one.name)
       .attr('d', (point) => point.one.shape)
       .attr('transform', (point) => `translate(${point.x},${point.y})`)
       .style('fill', (point) => point.one.colour)
-      .attr('tabindex', 0)
       .attr('role', 'button')
       .attr('data-run', (point) => point.run.id)
       .attr('aria-label', (point) => `run ${point.run.id}: ${point.run.label}`)
-      .on('focus', (_, point) => state.set({read: point.run.id}))
+      .on('focus', (_, point) => read(point))
+      .on('blur', () => emphasise(null))
       .on('keydown', (event, point) => {
         if (event.key === 'Enter' || event.key === ' ') choose(event, point);
+        else move(event, point);
       });
     svg.append('g').attr('class', 'marks');
+  }
+
+  function read(point) {
+    state.set({read: point.run.id});
+    emphasise([point.one.name]);
   }
 
   function choose(event, point) {
@@ -167,37 +167,19 @@ export function showPlot(root, table, state) {
     state.set({read: point.run.id, [event.shiftKey ? 'b' : 'a']: point.run.id});
   }
 
-  function drawLegend(series) {
-    legend.replaceChildren(
-      el('span', {class: 'key front-key'}, 'Pareto front'),
-      ...series.map((one) => {
-        const icon = pick(el('span'))
-          .append('svg')
-          .attr('width', 12)
-          .attr('height', 12)
-          .attr('aria-hidden', 'true');
-        icon
-          .append('path')
-          .attr('d', one.shape)
-          .attr('transform', 'translate(6,6)')
-          .style('fill', one.colour);
-        return el(
-          'button',
-          {
-            type: 'button',
-            class: 'key',
-            'aria-pressed': String(!hidden.has(one.name)),
-            title: 'Show or hide this series',
-            onclick: () => {
-              if (!hidden.delete(one.name)) hidden.add(one.name);
-              draw();
-            },
-          },
-          icon.node(),
-          one.name,
-        );
-      }),
-    );
+  function move(event, point) {
+    const next = neighbour(points, point, event.key);
+    if (!next) return;
+    event.preventDefault();
+    svg.selectAll('.point').filter((other) => other === next).node().focus();
+  }
+
+  /** Makes series stand out from the others; null: none does. */
+  function emphasise(names) {
+    svg.classed('emphasis', names !== null);
+    svg.selectAll('[data-series]').classed('strong', function isStrong() {
+      return names !== null && names.includes(this.dataset.series);
+    });
   }
 
   /** Rings around the run that is read and the two that are compared. */
@@ -205,14 +187,11 @@ export function showPlot(root, table, state) {
     const marks = svg.select('.marks');
     marks.selectAll('*').remove();
     const at = (id) => points.find((point) => point.run.id === id);
-    const read = at(state.get('read'));
-    if (read)
-      marks
-        .append('circle')
-        .attr('class', 'read')
-        .attr('cx', read.x)
-        .attr('cy', read.y)
-        .attr('r', 9);
+    const now = at(state.get('read'));
+    if (now)
+      marks.append('circle').attr('class', 'read').attr('cx', now.x).attr('cy', now.y).attr('r', 9);
+    const stop = now ?? at(state.get('a')) ?? points[0]; // where the tab key enters
+    svg.selectAll('.point').attr('tabindex', (point) => (point === stop ? 0 : -1));
     for (const side of ['a', 'b']) {
       const point = at(state.get(side));
       if (!point) continue;
@@ -240,13 +219,21 @@ export function showPlot(root, table, state) {
   svg.on('pointermove', (event) => {
     const point = nearest(event);
     svg.style('cursor', point ? 'pointer' : null);
-    if (point) state.set({read: point.run.id});
+    if (point) read(point);
+    else emphasise(null);
   });
+  svg.on('pointerleave', () => emphasise(null));
   svg.on('click', (event) => {
     const point = nearest(event);
     if (point) choose(event, point);
   });
+  function regroup() {
+    series = seriesOf(table, state.get('grouping'));
+    legend.show(series);
+  }
+  state.listen(['grouping'], regroup);
   state.listen(['x', 'y', 'grouping'], draw);
   state.listen(['read', 'a', 'b'], mark);
+  regroup();
   new ResizeObserver(draw).observe(frame);
 }

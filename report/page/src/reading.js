@@ -1,6 +1,6 @@
 // What the plot says of the run under the pointer. Its height does not depend on what it says.
 import {el} from './dom.js';
-import {MEASURES, written} from './measures.js';
+import {MEASURES, spreadText, written} from './measures.js';
 
 const SHOWN = [
   'frame_s',
@@ -43,14 +43,10 @@ export function createReading(table, state) {
     name.textContent = run ? `${run.id} ${run.label}${remarks(run)}` : 'Point at a run to read it';
     options.textContent = run
       ? (run.options ?? []).join(' ')
-      : 'click: image A; shift and click: image B';
+      : 'click: image A, with shift: B; arrow keys: next run';
     for (const [key, cell] of values) {
-      cell.textContent = run
-        ? written(
-            MEASURES.find((of) => of.key === key),
-            run,
-          )
-        : '–';
+      const of = MEASURES.find((candidate) => candidate.key === key);
+      cell.textContent = run ? written(of, run) + (key === 'frame_s' ? spreadText(run) : '') : '–';
     }
   }
   state.listen(['read'], show);

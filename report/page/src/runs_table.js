@@ -3,8 +3,11 @@ import {ascending} from 'd3-array';
 import {el} from './dom.js';
 import {UNKNOWN} from './format.js';
 import {MEASURES} from './measures.js';
+import {countsText, OUTCOMES, outcome, reasonText} from './outcome.js';
 
 const UNIT_NAMES = {s: 's', '%': '%', MiB: 'MiB'};
+
+const LIMITED = '~'; // as in the table that is printed
 
 const COLUMNS = [
   {
@@ -45,10 +48,17 @@ function compare(a, b, direction) {
   return order * direction;
 }
 
+const rank = (run) => OUTCOMES.indexOf(outcome(run));
+
 function cells(run) {
   if (run.ok) {
     return COLUMNS.map((column) =>
-      el('td', {class: column.number ? 'number' : column.key}, column.text(run)),
+      el(
+        'td',
+        {class: column.number ? 'number' : column.key},
+        column.key === 'rel_mse' && run.limited_by_reference ? `${LIMITED} ` : '',
+        column.text(run),
+      ),
     );
   }
   return [
@@ -56,10 +66,16 @@ function cells(run) {
     el('td', {class: 'label'}, run.label),
     el(
       'td',
-      {class: 'failure', colspan: COLUMNS.length - 2},
-      `failed: ${run.error || 'no message'}`,
+      {class: 'reason', colspan: COLUMNS.length - 2},
+      reasonText(run),
     ),
   ];
+}
+
+function headingText(runs) {
+  const limited = runs.some((run) => run.ok && run.limited_by_reference);
+  const legend = limited ? `; ${LIMITED}: the reference's own error hides that of the run` : '';
+  return ` ${countsText(runs)}; a click on a heading sorts, what is not known last${legend}`;
 }
 
 export function showRuns(root, table, images, state) {
@@ -86,7 +102,7 @@ export function showRuns(root, table, images, state) {
       'tr',
       {
         'data-run': run.id,
-        class: run.ok ? null : 'failed',
+        class: run.ok ? null : outcome(run),
         onpointerenter: () => state.set({read: run.id}),
       },
       el('td', {class: 'sides'}, run.ok ? [side('a'), side('b')] : UNKNOWN),
@@ -106,7 +122,8 @@ export function showRuns(root, table, images, state) {
       el(
         'button',
         {type: 'button', title: column.what, onclick: () => sort(column)},
-        el('span', {}, column.name),
+        el('span', {class: 'arrow', 'aria-hidden': 'true'}),
+        column.name,
         UNIT_NAMES[column.unit] ? el('small', {}, UNIT_NAMES[column.unit]) : null,
       ),
     );
@@ -120,7 +137,7 @@ export function showRuns(root, table, images, state) {
     }
     const order = [...table.runs].sort(
       (a, b) =>
-        ascending(!a.ok, !b.ok) || compare(column.value(a), column.value(b), sorted.direction),
+        ascending(rank(a), rank(b)) || compare(column.value(a), column.value(b), sorted.direction),
     );
     body.append(...order.map((run) => rows.get(run)));
   }
@@ -134,7 +151,6 @@ export function showRuns(root, table, images, state) {
   }
 
   body.append(...rows.values());
-  const failed = table.runs.filter((run) => !run.ok).length;
   root.append(
     el(
       'h2',
@@ -143,7 +159,7 @@ export function showRuns(root, table, images, state) {
       el(
         'small',
         {},
-        ` ${table.runs.length}${failed ? `, ${failed} failed` : ''}; a click on a heading sorts, unknown values and failed runs last`,
+        headingText(table.runs),
       ),
     ),
     el(

@@ -31,6 +31,7 @@ export function createStage(onread) {
   const view = createView();
   let layers = [];
   let split = 0.5;
+  let taken = false; // the wheel is the image's, from a press on it until the pointer leaves
 
   const ratio = () => window.devicePixelRatio || 1;
   const sized = () => layers.find((layer) => layer.width);
@@ -45,6 +46,8 @@ export function createStage(onread) {
     handle.setAttribute('aria-valuenow', Math.round(split * 100));
     handle.setAttribute('aria-valuetext', `A to ${Math.round(split * 100)} percent of the width`);
     root.dataset.scale = view.scale;
+    // A finger moves what is zoomed in on; the page otherwise.
+    canvas.style.touchAction = view.fitted ? 'pan-y' : 'none';
   }
 
   /** Draws what of a layer is between two columns of the canvas. */
@@ -110,12 +113,20 @@ export function createStage(onread) {
     view.pan(now.x - before.x, now.y - before.y);
     draw();
   });
+  function take(now) {
+    taken = now;
+    root.classList.toggle('taken', now);
+  }
+  canvas.addEventListener('pointerdown', () => take(true));
+  root.addEventListener('pointerleave', () => take(false));
   canvas.addEventListener(
     'wheel',
     (event) => {
-      event.preventDefault();
-      const at = point(event);
+      if (!taken && !event.ctrlKey) return; // a reader on the way down the page
+      const [at, before] = [point(event), view.scale];
       view.zoomAt(at.x, at.y, 2 ** (-Math.sign(event.deltaY) / 3));
+      if (view.scale === before && !event.ctrlKey) return; // as small as it gets
+      event.preventDefault();
       draw();
     },
     {passive: false},

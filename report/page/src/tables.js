@@ -3,19 +3,34 @@ import {el} from './dom.js';
 import {count, mebibytes, significant, UNKNOWN} from './format.js';
 
 const COUNTS = /^(rays|samples|.*_points|points|grids|micropolygons|pixels)$/;
+const VERDICT = /verdict/i;
+const CONCLUSION = /verdict|^needs$/i; // what one looks for first
+
+/** What the end of a column's name says of its unit, where the column has none of its own. */
+const UNIT_ENDINGS = [
+  [/_bytes$/, 'MiB'],
+  [/_mib$/, 'MiB'],
+  [/_percent$/, '%'],
+  [/_s$/, 's'],
+];
+
+function unitText({name, unit}) {
+  if (/^bytes$/i.test(unit ?? '')) return 'MiB';
+  return unit || UNIT_ENDINGS.find(([ending]) => ending.test(name))?.[1];
+}
+
+/** "time_saved_percent" as "time saved", "rel_mse" as "relMSE". */
+function nameText({name}) {
+  const [ending] = UNIT_ENDINGS.find(([end]) => end.test(name)) ?? [/$/];
+  return name.replace(ending, '').replaceAll('rel_mse', 'relMSE').replaceAll('_', ' ');
+}
 
 function cellText(value, column) {
   if (value === null || value === undefined) return UNKNOWN;
   if (typeof value === 'boolean') return value ? 'yes' : 'no';
   if (typeof value !== 'number') return String(value);
   if (/^bytes$/i.test(column.unit ?? '') || /_bytes$/.test(column.name)) return mebibytes(value);
-  return COUNTS.test(column.name) ? count(value) : significant(value);
-}
-
-function unitText(column) {
-  return /^bytes$/i.test(column.unit ?? '') || (!column.unit && /_bytes$/.test(column.name))
-    ? 'MiB'
-    : column.unit;
+  return column.whole || COUNTS.test(column.name) ? count(value) : significant(value);
 }
 
 const VERDICTS = [
@@ -28,42 +43,82 @@ const VERDICTS = [
 export const verdictClass = (text) =>
   VERDICTS.find(([, words]) => words.test(String(text)))?.[0] ?? 'none';
 
-function cell(value, column) {
+const verdict = (text, label = text) =>
+  el('span', {class: `verdict ${verdictClass(text)}`}, label);
+
+/**
+ * The columns to show, each with its place in a row: what a row is about, what is concluded of it,
+ * then all others in which any row has something.
+ */
+function shownColumns(columns, rows) {
+  const known = (value) => value !== null && value !== undefined && value !== '';
+  const shown = columns
+    .map((column, index) => ({
+      ...column,
+      index,
+      numeric: rows.some((row) => typeof row[index] === 'number'),
+      whole: rows.every(({[index]: value}) => typeof value !== 'number' || Number.isInteger(value)),
+      judges: VERDICT.test(column.name),
+      concludes: CONCLUSION.test(column.name),
+    }))
+    .filter(({index}) => index === 0 || rows.length === 0 || rows.some((row) => known(row[index])));
+  const [first, ...others] = shown;
+  return first
+    ? [first, ...others.filter((one) => one.concludes), ...others.filter((one) => !one.concludes)]
+    : [];
+}
+
+function headerCell(column) {
+  const unit = unitText(column);
+  return el(
+    'th',
+    {scope: 'col', class: column.numeric ? 'number' : null},
+    nameText(column),
+    unit ? el('small', {}, unit) : null,
+  );
+}
+
+function cell(value, column, place) {
   const text = cellText(value, column);
-  if (/verdict/i.test(column.name) && text !== UNKNOWN) {
-    return el('td', {}, el('span', {class: `verdict ${verdictClass(text)}`}, text));
+  if (place === 0) return el('th', {scope: 'row'}, text);
+  if (column.judges && text !== UNKNOWN) return el('td', {}, verdict(text));
+  return el('td', {class: column.numeric ? 'number' : 'text'}, text);
+}
+
+/** "146 rows: 140 pass, 6 fail": how often each verdict was given, the bad ones first. */
+function tally(columns, rows) {
+  const judge = columns.find((column) => column.judges);
+  if (!judge) return null;
+  const numbers = new Map();
+  for (const row of rows) {
+    const text = cellText(row[judge.index], judge);
+    numbers.set(text, (numbers.get(text) ?? 0) + 1);
   }
-  return el('td', {class: typeof value === 'number' || value === null ? 'number' : null}, text);
+  const order = ['bad', 'fair', 'none', 'good'];
+  const sorted = [...numbers].sort(
+    ([a], [b]) => order.indexOf(verdictClass(a)) - order.indexOf(verdictClass(b)),
+  );
+  if (sorted.length > 6) return null; // sentences rather than classes
+  return el(
+    'span',
+    {class: 'tally'},
+    sorted.map(([text, number]) => verdict(text, `${number} ${text}`)),
+  );
 }
 
 function section({title, columns = [], rows = [], notes = []}) {
-  const numeric = columns.map((_, i) => rows.some((row) => typeof row[i] === 'number'));
+  const shown = shownColumns(columns, rows);
   return el(
     'section',
     {'aria-label': title},
-    el('h2', {}, title),
+    el('h2', {}, title, tally(shown, rows)),
     el(
       'div',
       {class: 'scroll', tabindex: 0, role: 'region', 'aria-label': title},
       el(
         'table',
-        {},
-        el(
-          'thead',
-          {},
-          el(
-            'tr',
-            {},
-            columns.map((column, i) =>
-              el(
-                'th',
-                {scope: 'col', class: numeric[i] ? 'number' : null},
-                column.name.replaceAll('_', ' ').replace(/ (s|bytes)$/, ''),
-                unitText(column) ? el('small', {}, unitText(column)) : null,
-              ),
-            ),
-          ),
-        ),
+        {class: 'beside'},
+        el('thead', {}, el('tr', {}, shown.map(headerCell))),
         el(
           'tbody',
           {},
@@ -71,7 +126,7 @@ function section({title, columns = [], rows = [], notes = []}) {
             el(
               'tr',
               {},
-              columns.map((column, i) => cell(row[i], column)),
+              shown.map((column, place) => cell(row[column.index], column, place)),
             ),
           ),
         ),

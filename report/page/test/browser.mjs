@@ -9,6 +9,7 @@ import {join, resolve} from 'node:path';
 import {pathToFileURL} from 'node:url';
 import {compareTests} from './compare_tests.mjs';
 import {pageTests} from './page_tests.mjs';
+import {plotTests} from './plot_tests.mjs';
 
 const CHROMIUM = '/usr/bin/chromium';
 const FLAGS = [
@@ -68,7 +69,7 @@ async function run(folder) {
   });
   let failures = 0;
   try {
-    for (const [name, test] of [...pageTests, ...compareTests]) {
+    for (const [name, test] of [...pageTests, ...plotTests, ...compareTests]) {
       const page = await context.newPage();
       page.setDefaultTimeout(15000);
       const complaints = watch(page, url);

@@ -191,10 +191,10 @@ export const compareTests = [
       await choose(page, 'View of image A', 'heat:tests');
       near(await pixel(page, 0, 20), [0, 0, 0], 0, 'no tests');
       const alone = await pixel(page, 30, 20);
-      assert.match(
-        await page.innerText('.layer-legend >> nth=0'),
-        /tests per pixel.*mean 31\.5[^]*63/,
-      );
+      const legend = page.locator('.layer-legend >> nth=0');
+      assert.match(await legend.innerText(), /tests per pixel.*black is none; mean 31\.5/);
+      const ticks = legend.locator('.ticks span');
+      assert.deepEqual(await ticks.allInnerTexts(), ['1.00', '7.94', '63.0']);
       await choose(page, 'Image B', '0004');
       await choose(page, 'View of image B', 'heat:tests');
       near(await pixel(page, 63, 20), [255, 255, 184], 1, 'most tests');
@@ -225,6 +225,8 @@ export const compareTests = [
       );
       const under = await page.innerText('.pixel');
       assert.match(under, /^\(10, 20\)/);
+      await page.mouse.down();
+      await page.mouse.up(); // the wheel is the image's from now on
       for (let i = 0; i < 4; i += 1) await page.mouse.wheel(0, -100);
       await page.waitForFunction(
         (before) => Number(document.querySelector('.stage').dataset.scale) > 2 * before,
@@ -238,6 +240,82 @@ export const compareTests = [
       await page.click('button[aria-label="Fit the view"]');
       assert.equal(await scale(), fitted);
       await checkSplit(page, 1, 0, 32);
+    },
+  ],
+
+  [
+    'the wheel passes over the image unless it was pressed on, and again when the pointer has left',
+    async (page) => {
+      await page.setViewportSize({width: 800, height: 500});
+      const state = () =>
+        page.evaluate(() => [
+          Math.round(window.scrollY),
+          Number(document.querySelector('.stage').dataset.scale),
+        ]);
+      await page.locator('.stage').scrollIntoViewIfNeeded();
+      const over = async () => {
+        const box = await page.locator('.stage').boundingBox();
+        await page.mouse.move(box.x + 100, box.y + 100);
+      };
+      const wheel = async (dy) => {
+        const before = await state();
+        await page.mouse.wheel(0, dy);
+        await page.waitForFunction(
+          ([y, scale]) =>
+            Math.round(window.scrollY) !== y ||
+            Number(document.querySelector('.stage').dataset.scale) !== scale,
+          before,
+        );
+        const after = await state();
+        return {scrolled: after[0] !== before[0], zoomed: after[1] !== before[1]};
+      };
+      await over();
+      assert.deepEqual(await wheel(-60), {scrolled: true, zoomed: false});
+      await over();
+      await page.mouse.down();
+      await page.mouse.up();
+      assert.deepEqual(await wheel(-60), {scrolled: false, zoomed: true});
+      await page.mouse.move(5, 5);
+      await over();
+      assert.deepEqual(await wheel(60), {scrolled: true, zoomed: false});
+    },
+  ],
+
+  [
+    'a finger scrolls past the image until it is zoomed in on, and the hint is not cut',
+    async (page) => {
+      await page.setViewportSize({width: 390, height: 844});
+      const action = () => page.$eval('.stage canvas', (canvas) => canvas.style.touchAction);
+      assert.equal(await action(), 'pan-y');
+      await page.click('button[aria-label="Zoom in"]');
+      assert.equal(await action(), 'none');
+      for (const line of ['.pixel', '.reading-options', '.reading-name']) {
+        const [wide, high] = await page.$eval(line, (text) => [
+          text.scrollWidth - text.clientWidth,
+          text.scrollHeight - text.clientHeight,
+        ]);
+        assert.ok(wide <= 0 && high <= 0, `${line} lacks ${wide} by ${high} pixels`);
+      }
+    },
+  ],
+
+  [
+    'an image larger than a page holds is shown smaller, which the page says',
+    async (page) => {
+      assert.match(await page.innerText('#compare .reduced'), /mean of up to 2 × 2 pixels/);
+      await choose(page, 'Image A', '0011');
+      await choose(page, 'Image B', '0011');
+      const {ratio, middle} = await page.$eval('.stage canvas', (canvas) => ({
+        ratio: canvas.clientWidth / canvas.clientHeight,
+        middle: [
+          ...canvas
+            .getContext('2d')
+            .getImageData(Math.floor(canvas.width / 2), Math.floor(canvas.height / 4), 1, 1).data,
+        ].slice(0, 3),
+      }));
+      assert.ok(Math.abs(ratio / (1282 / 4) - 1) < 0.3, `${ratio}`);
+      const gain = 1 + 11 / 16; // at half the width, in the upper of the two rows left of four
+      near(middle, [gain / 2, gain / 4, gain / 4].map(srgb), 2, 'the middle');
     },
   ],
 

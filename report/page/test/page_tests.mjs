@@ -1,4 +1,4 @@
-// Summary, plot and tables of the page of the fixture.
+// Summary and tables of the page of the fixture.
 import assert from 'node:assert/strict';
 
 /** The table as the page holds it. */
@@ -15,9 +15,10 @@ function expectedOrder(runs, valueOf, direction) {
   const sorted = ok
     .filter(known)
     .sort((a, b) => direction * (valueOf(a) < valueOf(b) ? -1 : valueOf(a) > valueOf(b) ? 1 : 0));
-  return [...sorted, ...ok.filter((run) => !known(run)), ...runs.filter((run) => !run.ok)].map(
-    (run) => run.id,
+  const others = [false, true].flatMap((left_out) =>
+    runs.filter((run) => !run.ok && Boolean(run.not_run) === left_out),
   );
+  return [...sorted, ...ok.filter((run) => !known(run)), ...others].map((run) => run.id);
 }
 
 async function clickAndRead(page, column) {
@@ -38,13 +39,61 @@ export const pageTests = [
         'More samples & <less> error.',
         'a processor, 2 cores',
         '1024 samples per pixel',
-        '0123456789abcdef',
-        '12, of which 1 failed',
+        '13, of which 1 failed, 1 was not run',
         '1.00e−5',
       ]) {
         assert.ok(text.includes(part), `no "${part}" in: ${text}`);
       }
       assert.equal(await page.title(), '<fixture>.rib: error against cost');
+      await page.click('.particulars summary');
+      assert.match(await page.innerText('.particulars'), /0123456789abcdef[^]*--spp 1024/);
+    },
+  ],
+
+  [
+    'four findings are shown and the others folded, so that the plot starts on the first screen',
+    async (page) => {
+      assert.equal(await page.locator('.words li:visible').count(), 4);
+      assert.equal(await page.innerText('.words summary'), '2 more findings');
+      const plot = await page.locator('.plot-frame').boundingBox();
+      assert.ok(plot.y < 450, `the plot starts at ${plot.y}`);
+      await page.click('.words summary');
+      assert.match(await page.innerText('.words'), /Finding 6 of the sweep/);
+    },
+  ],
+
+  [
+    'notes are shown: the grave ones first, long ones with their start',
+    async (page) => {
+      const {notes} = await tableOf(page);
+      const shown = await page.locator('.notes > ul > li').allInnerTexts();
+      assert.equal(shown.length, 3);
+      assert.equal(shown[0], notes[1]);
+      const start = shown[1].replace(/ …$/, '');
+      assert.ok(start.length < 140 && notes[2].startsWith(start), start);
+      assert.equal(shown[2], notes[3]);
+      await page.click('.notes .long summary');
+      assert.ok((await page.innerText('.notes .long p')).endsWith('spp=40'));
+      await page.click('.notes > details > summary');
+      assert.ok((await page.innerText('.notes')).includes(notes[0]));
+    },
+  ],
+
+  [
+    'a run that was left out is not failed: grey, and after those that are',
+    async (page) => {
+      assert.equal(await page.innerText('.runs tr[data-run="0013"] .reason'), 'not run');
+      const colour = (id) =>
+        page
+          .locator(`.runs tr[data-run="${id}"] .reason`)
+          .evaluate((cell) => getComputedStyle(cell).color.match(/\d+/g).map(Number));
+      const spread = ([r, g, b]) => Math.max(r, g, b) - Math.min(r, g, b);
+      assert.ok(spread(await colour('0013')) < 40, `not run: ${await colour('0013')}`);
+      assert.ok(spread(await colour('0012')) > 100, `failed: ${await colour('0012')}`);
+      await page.click('.runs th[data-column=id] button');
+      await page.click('.runs th[data-column=id] button');
+      assert.deepEqual((await rowIds(page)).slice(-2), ['0012', '0013']);
+      assert.equal(await page.locator('.point[data-run="0013"]').count(), 0);
     },
   ],
 
@@ -56,10 +105,10 @@ export const pageTests = [
         'hider=<b>tct</b></script><script>alert(1)</script><!-- spp=16',
       );
       assert.equal(
-        await page.innerText('.runs tr[data-run="0012"] .failure'),
+        await page.innerText('.runs tr[data-run="0012"] .reason'),
         'failed: no memory: <b>4 GiB</b> needed</script>',
       );
-      assert.equal(await page.innerText('#tables tbody td'), 'blur of <i>1000</i> pixels');
+      assert.equal(await page.innerText('#tables tbody th'), 'blur of <i>1000</i> pixels');
       assert.equal(await page.locator('.runs b, #tables i').count(), 0);
     },
   ],
@@ -92,73 +141,100 @@ export const pageTests = [
   ],
 
   [
-    'a point that is pointed at is read, one that is clicked becomes image A',
+    'a run whose error the reference hides is marked',
     async (page) => {
+      assert.match(await page.innerText('#summary .facts'), /It hides that of 1 run\./);
       const {runs} = await tableOf(page);
-      const bounds = await page.locator('.point[data-run="0006"]').boundingBox();
-      const at = [bounds.x + bounds.width / 2, bounds.y + bounds.height / 2];
-      await page.mouse.move(...at);
-      const run = runs.find((candidate) => candidate.id === '0006');
-      assert.equal(await page.innerText('.reading-name'), `0006 ${run.label}`);
-      assert.equal(await page.innerText('.reading-options'), run.options.join(' '));
-      const read = async (key) => page.innerText(`.reading dd[data-measure=${key}]`);
-      assert.equal(parseFloat(await read('frame_s')), Number(run.frame_s.toPrecision(3)));
-      assert.equal(parseFloat(await read('rel_mse')), Number(run.rel_mse.toPrecision(3)));
-      assert.equal(await read('peak_bytes'), `${(run.peak_bytes / 2 ** 20).toFixed(1)} MiB`);
-      await page.mouse.click(...at);
-      assert.equal(await page.inputValue('select[aria-label="Image A"]'), '0006');
-      await page.keyboard.down('Shift');
-      await page.mouse.click(...at);
-      await page.keyboard.up('Shift');
-      assert.equal(await page.inputValue('select[aria-label="Image B"]'), '0006');
-    },
-  ],
-
-  [
-    'points lie where their values say, on any axes',
-    async (page) => {
-      const {runs} = await tableOf(page);
-      await page.selectOption('select[aria-label="x axis"]', 'shaded_points');
-      await page.selectOption('select[aria-label="y axis"]', 'rmse');
-      const places = await page.$$eval('.point', (points) =>
-        points.map((point) => {
-          const [, x, y] = /translate\((.*),(.*)\)/.exec(point.getAttribute('transform'));
-          return {id: point.dataset.run, x: Number(x), y: Number(y)};
-        }),
+      const marked = await page.$$eval('.runs tbody tr', (rows) =>
+        rows.filter((row) => /~ \d/.test(row.innerText)).map((row) => row.dataset.run),
       );
-      assert.equal(places.length, 11);
-      const value = (id, key) => Math.log(runs.find((run) => run.id === id)[key]);
-      // Three points lie on one line of log(value) against pixels when slopes between them agree.
-      for (const [axis, key] of [
-        ['x', 'shaded_points'],
-        ['y', 'rmse'],
-      ]) {
-        const [first, last] = [places[0], places[2]];
-        const slope = (last[axis] - first[axis]) / (value(last.id, key) - value(first.id, key));
-        assert.ok(axis === 'x' ? slope > 0 : slope < 0);
-        for (const place of places) {
-          const expected = first[axis] + slope * (value(place.id, key) - value(first.id, key));
-          assert.ok(Math.abs(place[axis] - expected) < 0.01, `run ${place.id}, ${key}`);
-        }
-      }
+      assert.deepEqual(
+        marked,
+        runs.filter((run) => run.limited_by_reference).map((run) => run.id),
+      );
+      assert.match(await page.innerText('#runs h2'), /~: the reference's own error/);
     },
   ],
 
   [
-    'a value of zero has a place, an unknown one is said to be missing',
+    'headings end where their numbers do, and time and error are seen on a telephone',
     async (page) => {
-      await page.selectOption('select[aria-label="x axis"]', 'rays');
-      await page.selectOption('select[aria-label="y axis"]', 'visible');
-      assert.equal(await page.locator('.point').count(), 10);
-      assert.equal(await page.locator('.axis .zero').count(), 1);
-      assert.match(await page.innerText('#plot .note'), /^1 of 11 runs/);
+      await page.click('.runs th[data-column=cpu_s] button'); // the arrow takes no room
+      for (const width of [1280, 390]) {
+        await page.setViewportSize({width, height: 900});
+        const gaps = await page.evaluate(() => {
+          const end = (cell) => {
+            const range = document.createRange();
+            range.selectNodeContents(cell);
+            return Math.max(...[...range.getClientRects()].map((box) => box.right));
+          };
+          const numbers = document.querySelectorAll('.runs tbody tr:first-child td.number');
+          return [...document.querySelectorAll('.runs th.number')].map(
+            (heading, i) => end(heading.querySelector('button')) - end(numbers[i]),
+          );
+        });
+        assert.equal(gaps.length, 10);
+        assert.ok(Math.max(...gaps.map(Math.abs)) <= 1, `at ${width}: ${gaps}`);
+      }
+      const [frame, error] = await page.$eval('.runs', (runs) => {
+        const edge = runs.parentElement.getBoundingClientRect().right;
+        return ['frame_s', 'rel_mse'].map(
+          (column) =>
+            edge - runs.querySelector(`th[data-column=${column}]`).getBoundingClientRect().right,
+        );
+      });
+      assert.ok(frame > error && error >= 0, `${frame}, ${error}`);
+    },
+  ],
+
+  [
+    'tables besides show their verdicts without scrolling, next to what they are about',
+    async (page) => {
+      for (const width of [390, 1280, 1920]) {
+        await page.setViewportSize({width, height: 900});
+        const {right, edge} = await page.$eval('#tables .scroll', (frame) => ({
+          right: frame.querySelector('td .verdict').getBoundingClientRect().right,
+          edge: frame.getBoundingClientRect().right,
+        }));
+        assert.ok(right <= edge, `the verdict ends at ${right} of ${edge} at ${width}`);
+      }
+      const header = await page.locator('#tables thead th').allInnerTexts();
+      const names = ['case', 'verdict', 'compared', 'frame', 'worst error', 'time saved', 'oracle'];
+      assert.deepEqual(
+        header.map((text) => text.replace(/\s*[s%]$/, '').trim()),
+        names,
+      );
+      assert.equal(await page.innerText('#tables thead th:nth-child(6) small'), '%');
+      assert.equal(await page.innerText('#tables tbody td >> nth=1'), '200 k');
+      assert.match(await page.innerText('#tables .tally'), /1 failed\s*5 ok/);
+    },
+  ],
+
+  [
+    'tables besides keep their first column in sight, and align words among numbers as these',
+    async (page) => {
+      await page.setViewportSize({width: 390, height: 900});
+      const cells = () =>
+        page.$eval('#tables .scroll', (frame) => {
+          const [first, second] = frame.querySelectorAll('tbody tr:first-child > *');
+          return [first, second].map((cell) => cell.getBoundingClientRect().left);
+        });
+      const before = await cells();
+      const moved = await page.$eval('#tables .scroll', (frame) => {
+        frame.scrollLeft = 120;
+        return frame.scrollLeft;
+      });
+      assert.equal(moved, 120);
+      assert.deepEqual(await cells(), [before[0], before[1] - 120]);
+      const words = page.locator('#tables td', {hasText: 'at least 3.17'});
+      assert.equal(await words.evaluate((cell) => getComputedStyle(cell).textAlign), 'right');
     },
   ],
 
   [
     'nothing overflows sideways, on wide and narrow screens',
     async (page) => {
-      for (const width of [1280, 800]) {
+      for (const width of [1920, 1280, 800, 390]) {
         await page.setViewportSize({width, height: 900});
         const wider = await page.evaluate(
           () => document.documentElement.scrollWidth - window.innerWidth,
