@@ -213,7 +213,7 @@ TEST_CASE("a frame that is filtered in strips is the frame", "[distribution]") {
     return 0.0;
   };
   REQUIRE(samples(whole) > 0);
-  CHECK(samples(strips) > 1.5 * samples(whole));
+  CHECK(samples(strips) > samples(whole));  // rows between strips twice
   CHECK(strips.image.data_window == whole.image.data_window);
   CHECK(differing_values(strips.image, whole.image) == 0);
   settings.filter_memory_bytes = size_t(1) << 20;
