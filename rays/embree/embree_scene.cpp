@@ -12,6 +12,12 @@ namespace tessera {
 
 namespace {
 
+/// A geometry until it is handed over, or something fails before.
+struct ReleaseGeometry {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using OwnGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
+
 constexpr int most_intervals = 64;
 constexpr float key_tolerance = 1e-4f;
 
@@ -156,13 +162,13 @@ void EmbreeScene::add_geometry(std::span<const uint32_t> grids, RayScene& scene)
     }
     scene.near[g] = {};
   }
-  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  fill_triangles(geometry, grids);
-  fill_vertices(geometry, grids);
-  rtcSetGeometryUserData(geometry, met.get());
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene_, geometry, unsigned(geometries_.size()));
-  rtcReleaseGeometry(geometry);
+  const OwnGeometry geometry(rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE));
+  check("starting on triangles");
+  fill_triangles(geometry.get(), grids);
+  fill_vertices(geometry.get(), grids);
+  rtcSetGeometryUserData(geometry.get(), met.get());
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene_, geometry.get(), unsigned(geometries_.size()));
   geometries_.push_back(std::move(met));
   check("handing over triangles");
 }
