@@ -106,7 +106,8 @@ Statistics FrameStatistics::finish(const FramePlan& plan, const Scene& scene,
   if (bound_samples_ > 0) statistics.ratios.emplace_back("aaf_bound_spp", bound_samples_);
   statistics.memory_bytes = {{"peak_resident_bytes", peak_resident_bytes()},
                              {"peak_grid_bytes", peak_grid_bytes_},
-                             {"ray_bytes", ray_bytes_}};
+                             {"ray_bytes", ray_bytes_},
+                             {"bounce_bytes", bounce_bytes_}};
   statistics.plan = plan.entries();
   statistics.options = options_in_force(scene, settings, threads);
   statistics.warnings = diagnostics.lines();

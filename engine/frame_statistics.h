@@ -18,6 +18,8 @@ class FrameStatistics {
   void add(const GridSource& grids);
   void add(const Reconstruction& reconstruction);
   void add(const RayTracer& rays) { ray_bytes_ = rays.memory_bytes(); }
+  /// Once all is shaded.
+  void add(const ShaderBindings& shaders) { bounce_bytes_ = bounce_bytes(shaders); }
   /// The last to be added. Warns if the map is empty because the plan's methods do not fill it.
   void add(const HeatmapScale& scale, const Heatmap& map, const FramePlan& plan,
            Diagnostics& diagnostics);
@@ -40,7 +42,7 @@ class FrameStatistics {
   FilmCounters film_;
   std::vector<std::pair<std::string, double>> heatmap_;
   uint64_t extra_samples_ = 0;
-  size_t peak_grid_bytes_ = 0, ray_bytes_ = 0;
+  size_t peak_grid_bytes_ = 0, ray_bytes_ = 0, bounce_bytes_ = 0;
 };
 
 }  // namespace tessera
