@@ -9,7 +9,7 @@
 #include "shade/fragment_points.h"
 #include "shade/light_terms.h"
 #include "shade/sample_places.h"
-#include "tests/shade/ray_fixtures.h"
+#include "tests/shade/bounce_fixtures.h"
 
 using namespace tessera;
 using namespace tessera::test;
@@ -70,12 +70,6 @@ double mean(const std::vector<float>& values) {
   return sum / double(values.size());
 }
 
-/// See tests/shade/hemisphere_test.cpp.
-double upright_rectangle(double distance, double width, double height) {
-  const double r = std::hypot(distance, height);
-  return (std::atan(width / distance) - distance / r * std::atan(width / r)) /
-         (2.0 * 3.14159265358979);
-}
 /// What the wall leaves open of the sky over the point that samples see.
 double open_share() {
   const double d = 0.5 - 1.0 / 3.0;
@@ -291,10 +285,7 @@ TEST_CASE("what moves is met where it was when the sample was taken") {
   auto lid = make_grid(yard.wall(), 1, 1, [](float u, float v) {
     return glm::vec3(200.0f * u - 100.0f, 200.0f * v - 100.0f, 2.99f);
   });
-  lid->key_times = {0.0f, 1.0f};
-  const AlignedVector<float> rest = lid->P_camera;
-  lid->P_camera.insert(lid->P_camera.end(), rest.begin(), rest.end());
-  for (size_t k = 0; k < lid->stride(); ++k) lid->P(1, 0)[k] += 400.0f;
+  add_key(*lid, 1.0f, [](const glm::vec3& P) { return P + glm::vec3(400, 0, 0); });
   use_rays(*yard.bindings,
            std::make_shared<BruteTracer>(std::vector<std::shared_ptr<const Grid>>{lid}));
   TestBucket bucket = bucket_of(yard.floor(), {0, 0, 4, 4}, 4);
@@ -327,15 +318,10 @@ TEST_CASE("points are carried along with surfaces that turn") {
   auto grid =
       make_grid(surface, 4, 4, [&](float u, float v) { return glm::vec3(centre) + normal(u, v); });
   set_normals(*grid, normal);
-  const AlignedVector<float> rest = grid->P_camera;
   for (int key = 1; key <= 64; ++key) {
-    grid->key_times.push_back(float(key) / 64.0f);
-    grid->P_camera.insert(grid->P_camera.end(), rest.begin(), rest.end());
-    for (size_t k = 0; k < grid->stride(); ++k) {
-      const glm::dvec3 p(rest[k], rest[grid->stride() + k], rest[2 * grid->stride() + k]);
-      const glm::dvec3 q = centre + turned(p - centre, key / 64.0);
-      for (int axis = 0; axis < 3; ++axis) grid->P(key, axis)[k] = float(q[axis]);
-    }
+    add_key(*grid, float(key) / 64.0f, [&](const glm::vec3& P) {
+      return glm::vec3(centre + turned(glm::dvec3(P) - centre, key / 64.0));
+    });
   }
   TestBucket bucket(32);
   bucket.grids = {grid};
@@ -374,9 +360,7 @@ TEST_CASE("normals of surfaces seen from behind point to the eye, and lost ones 
   set_normals(*away, [](float, float) { return glm::vec3(0, 0, 1); });
   for (float& p : flat->P_camera) p = 1.0f;
   for (float& n : flat->N_camera) n = 0.0f;
-  flat->key_times = {0.0f, 1.0f};
-  const AlignedVector<float> rest = flat->P_camera;
-  flat->P_camera.insert(flat->P_camera.end(), rest.begin(), rest.end());
+  add_key(*flat, 1.0f, [](const glm::vec3& P) { return P; });
   TestBucket bucket(2);
   bucket.grids = {away, flat};
   bucket.samples.t = {0.5f, 0.5f};
