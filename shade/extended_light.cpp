@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 
-#include "shade/mathematics.h"
 #include "shade/ray_shadows.h"
 #include "shade/receiver_frame.h"
 #include "shade/shade.h"
+#include "shade/view.h"
 
 namespace tessera {
 namespace {
@@ -19,10 +19,9 @@ constexpr float largest_cosine_ratio = 16.0f;
 /// Normals turned towards the eye, as surface shaders turn them.
 Vec3Array facing_normals(const ShadingPoints& points, const Camera* camera) {
   Vec3Array facing(points.count);
-  const bool perspective = !camera || camera->perspective();
   for (int i = 0; i < points.count; ++i) {
-    const glm::vec3 n = points.N[i], from_eye = perspective ? points.P[i] : glm::vec3(0, 0, 1);
-    facing.set(i, glm::dot(n, from_eye) > 0.0f ? -n : n);
+    const glm::vec3 P = points.P[i];
+    facing.set(i, turned_against(points.N[i], camera ? along_view(*camera, P) : P));
   }
   return facing;
 }
@@ -109,12 +108,8 @@ void fill_coordinates(const BoundLight& light, const ShadingPoints& points,
     if (!light.extent.infinite) {
       frame = frame.projected_along(unit_or_zero(light.extent.centre - P), N);
     }
-    const EffectCoordinate at =
-        effect_coordinate(frame.pixels(from.offset[i]), reach_of(light.extent, frame));
-    for (size_t axis = 0; axis < 2; ++axis) {
-      out.y[axis][size_t(i)] = at.y[int(axis)];
-      out.extent[axis][size_t(i)] = at.extent[int(axis)];
-    }
+    const glm::vec2 pixels = frame.pixels(from.offset[i]);
+    set_coordinate(size_t(i), effect_coordinate(pixels, reach_of(light.extent, frame)), out);
   }
 }
 

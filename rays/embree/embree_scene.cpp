@@ -7,6 +7,7 @@
 #include <tbb/task_arena.h>
 
 #include "base/error.h"
+#include "shade/fragment_geometry.h"
 
 namespace tessera {
 
@@ -33,22 +34,6 @@ size_t vertex_count(std::span<const uint32_t> grids, const auto& all) {
   return count;
 }
 
-/// Where in a grid's keys a time lies.
-struct KeyPosition {
-  int key = 0;
-  float weight = 0;  ///< of key + 1
-};
-
-KeyPosition key_position(std::span<const float> times, float t) {
-  KeyPosition at;
-  while (at.key + 1 < int(times.size()) && times[size_t(at.key) + 1] <= t) ++at.key;
-  if (at.key + 1 < int(times.size())) {
-    const float t0 = times[size_t(at.key)], t1 = times[size_t(at.key) + 1];
-    at.weight = std::clamp((t - t0) / (t1 - t0), 0.0f, 1.0f);
-  }
-  return at;
-}
-
 /// The power of two that brings the largest coordinate into [1, 2). What is beyond 1e15 does not
 /// count, or the rest would vanish beside it.
 float scale_of(std::span<const std::shared_ptr<const Grid>> grids) {
@@ -68,12 +53,11 @@ float scale_of(std::span<const std::shared_ptr<const Grid>> grids) {
 }
 
 /// Vertices of a grid between two keys, as x, y, z, x, y, z, ...
-void write_vertices(const Grid& grid, const KeyPosition& at, float scale, float* xyz) {
+void write_vertices(const Grid& grid, const KeyBlend& at, float scale, float* xyz) {
   for (int axis = 0; axis < 3; ++axis) {
-    const float* from = grid.P(at.key, axis);
-    const float* to = at.weight > 0 ? grid.P(at.key + 1, axis) : from;
+    const float *from = grid.P(at.before, axis), *to = grid.P(at.after, axis);
     for (int k = 0; k < grid.vertex_count(); ++k) {
-      xyz[3 * k + axis] = scale * (from[k] + at.weight * (to[k] - from[k]));
+      xyz[3 * k + axis] = scale * (from[k] + at.share * (to[k] - from[k]));
     }
   }
 }
@@ -198,7 +182,7 @@ void EmbreeScene::fill_vertices(RTCGeometry geometry, std::span<const uint32_t> 
                                 3 * sizeof(float), vertex_count(grids, grids_)));
     check("making room for vertices");
     const float t = intervals > 0 ? float(step) / float(intervals) : 0.0f;
-    const KeyPosition at = key_position(times, t);
+    const KeyBlend at(*grids_[grids.front()], t);
     for (uint32_t g : grids) {
       write_vertices(*grids_[g], at, scale_, xyz);
       xyz += 3 * grids_[g]->vertex_count();
