@@ -16,10 +16,10 @@ class FrameStatistics {
   void setup_done() { setup_s_ = elapsed_s(); }
   void add(const BucketRenderer& worker);
   void add(const GridSource& grids);
-  void add(const Reconstruction& reconstruction);
-  void add(const RayTracer& rays) { ray_bytes_ = rays.memory_bytes(); }
   /// Once all is shaded.
   void add(const ShaderBindings& shaders) { bounce_bytes_ = bounce_bytes(shaders); }
+  void add(const Reconstruction& reconstruction);
+  void add(const RayTracer& rays) { ray_bytes_ = rays.memory_bytes(); }
   /// The last to be added. Warns if the map is empty because the plan's methods do not fill it.
   void add(const HeatmapScale& scale, const Heatmap& map, const FramePlan& plan,
            Diagnostics& diagnostics);
