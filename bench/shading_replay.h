@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "shade/memo_cache.h"
+#include "base/flat_index.h"
+#include "bench/memo_cache.h"
 #include "shade/shade.h"
 
 namespace tessera {
@@ -34,17 +35,17 @@ class CacheBank {
     }
     for (size_t c = 0; c < bounded_.size(); ++c)
       for (const uint64_t name : changes_) bounded_shaded_[c] += bounded_[c].request(name);
-    for (const uint64_t name : changes_) unbounded_shaded_ += unbounded_.request(name);
+    for (const uint64_t name : changes_) seen_.insert(name);
   }
   /// Of size `c` of those it was made with.
   uint64_t shaded(size_t c) const { return bounded_shaded_[c]; }
-  uint64_t shaded_unbounded() const { return unbounded_shaded_; }
+  uint64_t shaded_unbounded() const { return seen_.size(); }
 
  private:
   std::vector<MemoCache> bounded_;
-  UnboundedMemo unbounded_;
+  FlatIndex seen_;  ///< all names, which are hashes already
   std::vector<uint64_t> bounded_shaded_;
-  uint64_t unbounded_shaded_ = 0, last_ = 0;
+  uint64_t last_ = 0;
   bool started_ = false;
   std::vector<uint64_t> changes_;
 };

@@ -246,6 +246,7 @@ FrameResult FramePasses::finish(PassResult&& pass, AccuracyStatistics&& accuracy
   if (several_ && result.display_encoded) encode(result.image, gamma);
   result.image.pixel_aspect = scene_.camera.pixel_aspect;
   if (grids_) statistics_.add(*grids_);
+  statistics_.add(*bindings_);
   if (heatmap_) {
     result.heatmap = heatmap_->definition().name;
     heatmap_->add_channel(result.image);

@@ -116,7 +116,8 @@ Statistics FrameStatistics::finish(const FramePlan& plan, const Scene& scene,
     statistics.ratios.emplace_back("aaf_bound_spp", bound_samples_ / bound_pixels_);
   statistics.memory_bytes = {{"peak_resident_bytes", peak_resident_bytes()},
                              {"peak_grid_bytes", peak_grid_bytes_},
-                             {"ray_bytes", ray_bytes_}};
+                             {"ray_bytes", ray_bytes_},
+                             {"bounce_bytes", bounce_bytes_}};
   statistics.plan = plan.entries();
   statistics.options = options_in_force(scene, settings, threads);
   statistics.warnings = diagnostics.lines();

@@ -19,6 +19,8 @@ class FrameStatistics {
   void add(const GridSource& grids);
   /// Once for each pass and strip of `pixels` pixels.
   void add(const Reconstruction& reconstruction, long pixels);
+  /// Once all is shaded.
+  void add(const ShaderBindings& shaders) { bounce_bytes_ = bounce_bytes(shaders); }
   void add(const RayTracer& rays) { ray_bytes_ = rays.memory_bytes(); }
   /// The last to be added. Warns if the map is empty, and says why.
   void add(const HeatmapScale& scale, const Heatmap& map, const FramePlan& plan,
@@ -43,7 +45,7 @@ class FrameStatistics {
   FilmCounters film_;
   std::vector<std::pair<std::string, double>> heatmap_;
   uint64_t extra_samples_ = 0;
-  size_t peak_grid_bytes_ = 0, ray_bytes_ = 0;
+  size_t peak_grid_bytes_ = 0, ray_bytes_ = 0, bounce_bytes_ = 0;
 };
 
 }  // namespace tessera

@@ -12,6 +12,9 @@ namespace tessera {
 
 namespace {
 
+/// Area of a micropolygon that rays meet over that of one that is seen (docs/rays.md).
+constexpr float rate_scale = 4.0f;
+
 /// Whether Attribute "visibility" "transmission" is off, as a number or in words.
 bool ignores_shadow_rays(const Attributes& attributes) {
   const auto given = attributes.user.find("visibility:transmission");
@@ -38,7 +41,7 @@ DiceSettings dice_settings(const RaySettings& settings) {
   dice.max_grid_size = settings.max_grid_size;
   dice.dicing_rate = settings.dicing_rate;
   // A rate that is given is meant as it stands.
-  if (!settings.dicing_rate) dice.shading_rate_scale = settings.rate_scale;
+  if (!settings.dicing_rate) dice.shading_rate_scale = rate_scale;
   dice.displacer = settings.displacer;
   dice.wants_primvar = settings.wants_primvar;
   return dice;

@@ -16,8 +16,8 @@ namespace tessera {
 
 struct RaySettings {
   int max_grid_size = 32;                ///< micropolygons along u and v
-  std::optional<float> dicing_rate;      ///< area of a micropolygon, pixels^2, for every surface
-  float rate_scale = 4.0f;               ///< of the surfaces' own area of a micropolygon otherwise
+  std::optional<float> dicing_rate;      ///< area of a micropolygon, pixels^2, for every surface;
+                                         ///< otherwise 4 times the surface's own
   const Displacer* displacer = nullptr;  ///< as in DiceSettings
   std::function<bool(const Attributes&, std::string_view name)> wants_primvar;
   int threads = 1;

@@ -123,14 +123,6 @@ glm::vec2 raster_motion(const FragmentGeometry& seen, const Camera& camera) {
   return finite ? shift : glm::vec2(0.0f);
 }
 
-glm::vec3 unit_normal(const FragmentGeometry& seen) {
-  const Grid& grid = *seen.grid;
-  const glm::vec3 sum(seen.interpolate(grid.N(0)), seen.interpolate(grid.N(1)),
-                      seen.interpolate(grid.N(2)));
-  const float length = glm::length(sum);
-  return length > 0.0f ? sum / length : glm::vec3(0.0f);
-}
-
 const AovEvaluator& evaluator_of(const AovDefinition& definition) {
   const std::string_view name = definition.name;
   for (const AovEvaluator& evaluator : evaluators()) {

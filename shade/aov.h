@@ -35,8 +35,6 @@ struct AovEvaluator {
 /// Raster shift from shutter open to close of the point that a fragment shows, through the lens
 /// centre, pixels; zero where it does not move or has no place on the raster at both ends.
 glm::vec2 raster_motion(const FragmentGeometry& seen, const Camera& camera);
-/// The interpolated unit normal at shutter open, camera space; zero where there is none.
-glm::vec3 unit_normal(const FragmentGeometry& seen);
 
 /// The evaluator behind `definition`, by name. Throws Error when there is none.
 const AovEvaluator& evaluator_of(const AovDefinition& definition);

@@ -255,6 +255,10 @@ void use_rays(ShaderBindings& bindings, std::shared_ptr<const RayTracer> rays) {
   bindings.use_rays(std::move(rays));
 }
 
+size_t bounce_bytes(const ShaderBindings& bindings) {
+  return bindings.bounce() ? bindings.bounce()->memory_bytes() : 0;
+}
+
 bool may_be_transparent(const ShaderBindings& bindings, const Surface& surface) {
   const glm::vec3& opacity = surface.attributes->opacity;
   if (!(opacity.x >= 1.0f && opacity.y >= 1.0f && opacity.z >= 1.0f)) return true;

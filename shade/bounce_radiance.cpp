@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include "shade/bindings.h"
 #include "shade/fragment_geometry.h"
 #include "shade/grid_points.h"
+#include "shade/mathematics.h"
+#include "shade/surface_shading.h"
 #include "shade/thinned_grid.h"
 
 namespace tessera {
@@ -123,31 +124,22 @@ std::vector<glm::vec3> BounceRadiance::shade(const Grid& whole, Side side,
   for (const BoundLight& light : lights) views_of_lights.push_back(&light);
   SurfaceColors colors{Vec3Array(points.count), Vec3Array(points.count)};
   colors.light_terms.resize(bindings_.light_term_count());  // nothing is written there
-  const ShaderDefinition& definition = *surface.surface.definition;
   const ShaderContext context(surface.surface, points,
                               {.lights = views_of_lights,
                                .textures = &bindings_.textures(),
                                .counters = &counters,
                                .diffuse_only = true});
-  definition.surface(context, colors);
+  surface.surface.definition->surface(context, colors);
   counters.bounce_points_shaded += uint64_t(points.count);
 
   std::vector<glm::vec3> radiance;
   uint64_t failed = 0;
   for (int i = 0; i < points.count; ++i) {
-    const glm::vec3 Ci = colors.Ci[i];
-    const bool finite = std::isfinite(Ci.x) && std::isfinite(Ci.y) && std::isfinite(Ci.z);
-    radiance.push_back(finite ? Ci : glm::vec3(0.0f));
+    const bool finite = is_finite(colors.Ci[i]);
+    radiance.push_back(finite ? colors.Ci[i] : glm::vec3(0.0f));
     failed += !finite;
   }
-  if (failed > 0) {
-    counters.nonfinite_dropped += failed;
-    bindings_.diagnostics().warn_once(
-        "nonfinite " + definition.name, surface.surface.where,
-        fmt::format("surface shader \"{}\" gave values that are not finite; such points are "
-                    "dropped",
-                    definition.name));
-  }
+  report_dropped(bindings_, surface, failed, counters);
   return thinned.spread(radiance);
 }
 

@@ -9,7 +9,8 @@
 namespace tessera {
 namespace {
 
-constexpr int most_taps = 8;
+/// Normals along each axis of a cell, at most.
+constexpr int most_normals = 8;
 /// Cells up to this many micropolygons long hold no bumps of their own.
 constexpr float small_cell = 1.5f;
 
@@ -30,7 +31,7 @@ glm::vec3 normal_at(const Grid& grid, const glm::vec2& place) {
 }
 
 int taps_over(float micropolygons) {
-  return std::clamp(int(std::ceil(micropolygons)), 1, most_taps);
+  return int(std::clamp(std::ceil(micropolygons), 1.0f, float(most_normals)));
 }
 
 /// Middle of the k-th of n parts of a cell's axis, from -1/2 to 1/2.

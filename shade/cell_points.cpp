@@ -1,8 +1,8 @@
 #include "shade/cell_points.h"
 
 #include "shade/cell_normals.h"
-#include "shade/mathematics.h"
 #include "shade/vertex_reader.h"
+#include "shade/view.h"
 
 namespace tessera {
 
@@ -25,7 +25,6 @@ void CellPoints::fill_geometry(std::span<const CellPoint> cells, const Camera& c
   for (Vec3Array* array : {&P_, &N_, &I_, &dPdx_, &dPdy_, &dNdx_, &dNdy_})
     array->reset(points_.count);
   normal_variance_.resize(padded(cells.size()));
-  const glm::vec3 forward(0.0f, 0.0f, 1.0f);
   for (int k = 0; k < points_.count; ++k) {
     const CellPoint& cell = cells[size_t(k)];
     const Grid& grid = *cell.grid;
@@ -40,9 +39,8 @@ void CellPoints::fill_geometry(std::span<const CellPoint> cells, const Camera& c
     const glm::vec2 x = cell.footprint.ij_per_x, y = cell.footprint.ij_per_y;
     // The lattice may be seen from its other side; a footprint has no sign of its own.
     if ((x.x * y.y - x.y * y.x) * grid.normal_sign < 0.0f) dPdy = -dPdy, normal.dNdy = -normal.dNdy;
-    const glm::vec3 from_eye = camera.perspective() ? unit_or_zero(P) : forward;
     P_.set(k, P), N_.set(k, normal.N), normal_variance_[size_t(k)] = normal.variance;
-    I_.set(k, from_eye == glm::vec3(0.0f) ? forward : from_eye);
+    I_.set(k, view_direction(camera, P));
     dPdx_.set(k, dPdx), dPdy_.set(k, dPdy), dNdx_.set(k, normal.dNdx), dNdy_.set(k, normal.dNdy);
   }
   points_.P = P_, points_.N = N_, points_.I = I_;

@@ -2,6 +2,7 @@
 
 #include "shade/aov.h"
 #include "shade/fragment_layers.h"
+#include "shade/view.h"
 
 namespace tessera {
 namespace {
@@ -50,18 +51,13 @@ void set_pair(std::array<std::vector<float>, 2>& values, size_t at, const glm::v
   values[0][at] = v.x, values[1][at] = v.y;
 }
 
-glm::vec3 facing_eye(const glm::vec3& N, const glm::vec3& P, const Camera& camera) {
-  const glm::vec3 from_eye = camera.perspective() ? P : glm::vec3(0.0f, 0.0f, 1.0f);
-  return glm::dot(N, from_eye) > 0.0f ? -N : N;
-}
-
 void describe_surface(const ShadeInput& input, const Camera& camera, size_t fragment, size_t sample,
                       SampleSurfaces& out) {
   const FragmentGeometry seen(input, fragment);
   const float z = input.fragments->z[fragment];
   if (!out.coc[0].empty()) set_pair(out.coc, sample, camera.coc_raster(z));
   if (!out.velocity[0].empty()) set_pair(out.velocity, sample, raster_motion(seen, camera));
-  add(out.N, sample, facing_eye(unit_normal(seen), seen.P_camera(0.0f), camera));
+  add(out.N, sample, turned_against(unit_normal(seen), along_view(camera, seen.P_camera(0.0f))));
   out.surface[sample] = uint32_t(seen.grid->surface->id) + 1;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "shade/mathematics.h"
+#include "shade/fragment_geometry.h"
 #include "shade/ray_tracer.h"
 
 namespace tessera {
@@ -17,19 +17,10 @@ using Frame = std::array<glm::dvec3, 3>;
 
 /// A triangle's corners at a shutter time, straight between the keys.
 Corners corners_at(const Grid& grid, uint32_t triangle, float time) {
-  int key = 0;
-  while (key + 2 < grid.key_count() && time >= grid.key_times[size_t(key) + 1]) ++key;
-  const int next = std::min(key + 1, grid.key_count() - 1);
-  const float from = grid.key_times[size_t(key)], to = grid.key_times[size_t(next)];
-  const float f = to > from ? std::clamp((time - from) / (to - from), 0.0f, 1.0f) : 0.0f;
+  const KeyBlend at(grid, time);
   const std::array<int, 3> vertices = grid.triangle_corners(triangle);
   Corners corners;
-  for (size_t c = 0; c < 3; ++c) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const float a = grid.P(key, axis)[vertices[c]], b = grid.P(next, axis)[vertices[c]];
-      corners[c][axis] = a + f * (b - a);
-    }
-  }
+  for (size_t c = 0; c < 3; ++c) corners[c] = vertex_camera(grid, vertices[c], at);
   return corners;
 }
 

@@ -21,7 +21,6 @@ class Emitter {
   bool empty() const { return triangles_.empty(); }
   /// Whether any of it moves while the shutter is open.
   bool moves() const;
-  size_t triangle_count() const { return triangles_.size(); }
   /// At shutter open, camera units: the centroid of the area, a box around it and the area itself.
   /// Of an empty emitter nothing is known.
   const LightExtent& extent() const { return extent_; }

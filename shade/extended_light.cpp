@@ -4,10 +4,10 @@
 #include <bit>
 #include <cmath>
 
-#include "shade/mathematics.h"
 #include "shade/ray_shadows.h"
 #include "shade/receiver_frame.h"
 #include "shade/shade.h"
+#include "shade/view.h"
 
 namespace tessera {
 namespace {
@@ -19,10 +19,9 @@ constexpr float largest_cosine_ratio = 16.0f;
 /// Normals turned towards the eye, as surface shaders turn them.
 Vec3Array facing_normals(const ShadingPoints& points, const Camera* camera) {
   Vec3Array facing(points.count);
-  const bool perspective = !camera || camera->perspective();
   for (int i = 0; i < points.count; ++i) {
-    const glm::vec3 n = points.N[i], from_eye = perspective ? points.P[i] : glm::vec3(0, 0, 1);
-    facing.set(i, glm::dot(n, from_eye) > 0.0f ? -n : n);
+    const glm::vec3 P = points.P[i];
+    facing.set(i, turned_against(points.N[i], camera ? along_view(*camera, P) : P));
   }
   return facing;
 }
@@ -33,15 +32,15 @@ glm::vec3 received(const LightSamples& samples, const Vec3Input& N, int i) {
 }
 
 /// The mean over the light's places of Cl cos at each point.
-Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points) {
+Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points,
+                        ShadeCounters* counters) {
   Vec3Array mean(points.count);
   PlaceSamples from;
   std::vector<glm::vec2> xi(size_t(points.count));
   const float weight = 1.0f / float(light.open_places.size());
   for (const glm::vec2& place : light.open_places) {
     std::ranges::fill(xi, place);
-    from.reset(points.count);
-    light.definition->illuminate_from(light, points, xi, from);
+    illuminate_from(light, points, xi, counters, from);
     for (int i = 0; i < points.count; ++i)
       mean.add(i, weight * received(from.arriving, points.N, i));
   }
@@ -49,7 +48,8 @@ Vec3Array mean_received(const BoundLight& light, const ShadingPoints& points) {
 }
 
 /// The mean over the light's places of Cl at point i.
-glm::vec3 mean_sent(const BoundLight& light, const ShadingPoints& points, int i) {
+glm::vec3 mean_sent(const BoundLight& light, const ShadingPoints& points, int i,
+                    ShadeCounters* counters) {
   const std::vector<glm::vec2>& places = light.open_places;
   const glm::vec3 P = points.P[i], N = points.N[i];
   const std::vector<float> time(places.size(), points.time ? points.time[i] : 0.0f);
@@ -59,8 +59,7 @@ glm::vec3 mean_sent(const BoundLight& light, const ShadingPoints& points, int i)
   same.N = Vec3Input::uniform(&N.x);
   same.time = points.time ? time.data() : nullptr;
   PlaceSamples from;
-  from.reset(same.count);
-  light.definition->illuminate_from(light, same, places, from);
+  illuminate_from(light, same, places, counters, from);
   glm::vec3 sum(0.0f);
   for (int k = 0; k < same.count; ++k) sum += from.arriving.Cl[k];
   return sum / float(same.count);
@@ -83,12 +82,12 @@ glm::vec3 ratio(const glm::vec3& part, const glm::vec3& whole) {
 /// against what all send, whatever their cosines; of an even light that takes away at most 1 / (4 *
 /// 16^2) of what arrives where all of it shows.
 void bound_shares(const BoundLight& light, const ShadingPoints& points, const LightSamples& from,
-                  Vec3Array& share) {
+                  ShadeCounters* counters, Vec3Array& share) {
   for (int i = 0; i < points.count; ++i) {
     const glm::vec3 s = share[i];
     if (!(std::max({s.x, s.y, s.z}) > largest_cosine_ratio)) continue;
     const glm::vec3 sent =
-        glm::max(glm::vec3(1.0f), ratio(from.Cl[i], mean_sent(light, points, i)));
+        glm::max(glm::vec3(1.0f), ratio(from.Cl[i], mean_sent(light, points, i, counters)));
     share.set(i, glm::min(s, largest_cosine_ratio * sent));
   }
 }
@@ -109,12 +108,8 @@ void fill_coordinates(const BoundLight& light, const ShadingPoints& points,
     if (!light.extent.infinite) {
       frame = frame.projected_along(unit_or_zero(light.extent.centre - P), N);
     }
-    const EffectCoordinate at =
-        effect_coordinate(frame.pixels(from.offset[i]), reach_of(light.extent, frame));
-    for (size_t axis = 0; axis < 2; ++axis) {
-      out.y[axis][size_t(i)] = at.y[int(axis)];
-      out.extent[axis][size_t(i)] = at.extent[int(axis)];
-    }
+    const glm::vec2 pixels = frame.pixels(from.offset[i]);
+    set_coordinate(size_t(i), effect_coordinate(pixels, reach_of(light.extent, frame)), out);
   }
 }
 
@@ -178,16 +173,15 @@ void share_from_extent(const BoundLight& light, const ShadingPoints& given,
   points.N = N;
   out.reset(points.count);
   PlaceSamples from;
-  from.reset(points.count);
-  light.definition->illuminate_from(light, points, xi, from);
-  const Vec3Array mean =
-      services.mean_received ? *services.mean_received : mean_received(light, points);
+  illuminate_from(light, points, xi, services.counters, from);
+  const Vec3Array mean = services.mean_received ? *services.mean_received
+                                                : mean_received(light, points, services.counters);
   if (services.camera) fill_coordinates(light, points, from, *services.camera, out);
   for (int i = 0; i < points.count; ++i) {
     out.open.set(i, ratio(received(from.arriving, points.N, i), mean[i]));
     if (out.open[i] == glm::vec3(0.0f)) from.towards.set(i, glm::vec3(0.0f));  // casts no ray
   }
-  bound_shares(light, points, from.arriving, out.open);
+  bound_shares(light, points, from.arriving, services.counters, out.open);
   out.share = out.open;
   if (!light.ray_traced) return;
   PlaceShadows shadows;

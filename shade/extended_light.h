@@ -34,6 +34,20 @@ struct LightPlace {
 void set_place(const BoundLight& light, const glm::vec3& P, const LightPlace& place,
                const glm::vec3& radiance, bool double_sided, int i, PlaceSamples& out);
 
+/// LightDefinition::illuminate_from of flat lights that shine to one side: place_of(xi) gives a
+/// place in units of the extent's first two half axes.
+template <class PlaceOf>
+void illuminate_flat(const BoundLight& light, const ShadingPoints& points,
+                     std::span<const glm::vec2> xi, const PlaceOf& place_of, PlaceSamples& out) {
+  const glm::vec3 radiance = radiance_of(light.parameters);
+  const LightExtent& extent = light.extent;
+  for (int i = 0; i < points.count; ++i) {
+    const glm::vec2 at = place_of(xi[size_t(i)]);
+    const glm::vec3 place = extent.centre + at.x * extent.half_axes[0] + at.y * extent.half_axes[1];
+    set_place(light, points.P[i], {place, extent.normal}, radiance, false, i, out);
+  }
+}
+
 /// LightDefinition::share_from of every light that has illuminate_from() and a BoundLight::extent.
 ///
 /// share = V * w, with V the share of light that gets from the place to the point and w = Cl cos at

@@ -2,16 +2,18 @@
 
 #include <algorithm>
 
+#include "shade/mathematics.h"
+
 namespace tessera {
 
 KeyBlend::KeyBlend(const Grid& grid, float t) {
   const std::vector<float>& times = grid.key_times;
   const int last = grid.key_count() - 1;
-  // The first key at or after t, and the share of it against the key before.
-  after = std::min(last, int(std::lower_bound(times.begin(), times.end(), t) - times.begin()));
-  before = std::max(after - 1, 0);
+  // The last key at or before t, and the share of the key after it.
+  before = std::max(0, int(std::upper_bound(times.begin(), times.end(), t) - times.begin()) - 1);
+  after = std::min(before + 1, last);
   const float span = times[size_t(after)] - times[size_t(before)];
-  share = span > 0.0f ? std::min(1.0f, (t - times[size_t(before)]) / span) : 0.0f;
+  share = span > 0.0f ? std::max(0.0f, (t - times[size_t(before)]) / span) : 0.0f;
 }
 
 FragmentGeometry::FragmentGeometry(const ShadeInput& input, size_t fragment) {
@@ -32,6 +34,12 @@ glm::vec3 FragmentGeometry::P_camera(float t) const {
     P[axis] = at.share == 0.0f ? p0 : p0 + at.share * (interpolate(grid->P(at.after, axis)) - p0);
   }
   return P;
+}
+
+glm::vec3 unit_normal(const FragmentGeometry& seen) {
+  const Grid& grid = *seen.grid;
+  return unit_or_zero(
+      {seen.interpolate(grid.N(0)), seen.interpolate(grid.N(1)), seen.interpolate(grid.N(2))});
 }
 
 }  // namespace tessera

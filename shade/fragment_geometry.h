@@ -7,8 +7,8 @@
 
 namespace tessera {
 
-/// The keys of a grid that a shutter time lies between: a value is that of `before` plus `share`
-/// times the difference to `after`.
+/// The keys of a grid that a shutter time lies between: a value is that of `before` plus `share`,
+/// in [0, 1), times the difference to `after`. At the time of a key it is that key's.
 struct KeyBlend {
   int before = 0, after = 0;
   float share = 0.0f;
@@ -43,6 +43,9 @@ struct FragmentGeometry {
   /// Camera-space position at shutter time t.
   glm::vec3 P_camera(float t) const;
 };
+
+/// The interpolated unit normal at shutter open, camera space; zero where there is none.
+glm::vec3 unit_normal(const FragmentGeometry& seen);
 
 /// The pixel of the frame that a fragment was seen in.
 inline glm::ivec2 pixel_of(const ShadeInput& input, size_t fragment) {

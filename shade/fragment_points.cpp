@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shade/mathematics.h"
+#include "shade/view.h"
 
 namespace tessera {
 namespace {
@@ -29,12 +29,6 @@ glm::vec3 lift_of(const FragmentGeometry& seen, const glm::vec3& P) {
     lift += seen.weight[k] * glm::dot(Q - P, N) * N;
   }
   return 0.5f * lift;
-}
-
-glm::vec3 normal_of(const FragmentGeometry& seen) {
-  const Grid& grid = *seen.grid;
-  return unit_or_zero(
-      {seen.interpolate(grid.N(0)), seen.interpolate(grid.N(1)), seen.interpolate(grid.N(2))});
 }
 
 /// Two edges of a triangle and its unit normal.
@@ -69,7 +63,7 @@ glm::vec3 carried(const glm::vec3& v, const TriangleFrame& from, const TriangleF
 
 PlacedPoint at_open(const FragmentGeometry& seen) {
   const glm::vec3 P = seen.P_camera(0.0f);
-  return {P + lift_of(seen, P), normal_of(seen)};
+  return {P + lift_of(seen, P), unit_normal(seen)};
 }
 
 /// `now` is the frame of the fragment's triangle at its time.
@@ -78,13 +72,13 @@ PlacedPoint at_time(const FragmentGeometry& seen, const TriangleFrame& now) {
   const TriangleFrame open(seen, 0.0f);
   const glm::vec3 lift = lift_of(seen, seen.P_camera(0.0f));
   return {seen.P_camera(seen.time) + carried(lift, open, now),
-          unit_or_zero(carried(normal_of(seen), open, now))};
+          unit_or_zero(carried(unit_normal(seen), open, now))};
 }
 
 /// The side of the triangle that the eye sees decides, not where the normal points: at the rim of a
 /// smooth surface normals already turn away.
 bool points_away(const TriangleFrame& triangle, const PlacedPoint& at, const Camera& camera) {
-  const glm::dvec3 from_eye = camera.perspective() ? glm::dvec3(at.P) : glm::dvec3(0, 0, 1);
+  const glm::dvec3 from_eye(along_view(camera, at.P));
   const double away = triangle.valid ? glm::dot(triangle.normal, from_eye) : 0.0;
   if (away == 0.0) return glm::dot(glm::dvec3(at.N), from_eye) > 0.0;
   return glm::dot(glm::dvec3(at.N), triangle.normal) * away > 0.0;
@@ -123,8 +117,7 @@ void FragmentPoints::fill_footprints(const Camera& camera) {
   dPdx_.reset(P_.count()), dPdy_.reset(P_.count());
   for (int i = 0; i < P_.count(); ++i) {
     const glm::vec3 P = P_[i], N = N_[i];
-    const glm::vec3 forward(0.0f, 0.0f, 1.0f);
-    const glm::vec3 I = camera.perspective() ? unit_or_zero(P) : forward;
+    const glm::vec3 I = view_direction(camera, P);
     const float w = camera.raster_clip_from_camera(P).z;
     const float cosine = glm::dot(N, I);
     const float bounded = std::copysign(std::max(std::abs(cosine), least_cosine), cosine);

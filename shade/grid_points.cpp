@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shade/mathematics.h"
+#include "shade/view.h"
 
 namespace tessera {
 
@@ -52,11 +52,7 @@ GridPoints::GridPoints(const Grid& grid, const Camera& camera, Footprints footpr
 
 void GridPoints::fill_incident(const Grid& grid, const Camera& camera) {
   I_.reset(grid.vertex_count());
-  const glm::vec3 forward(0.0f, 0.0f, 1.0f);
-  for (int i = 0; i < I_.count(); ++i) {
-    const glm::vec3 from_eye = camera.perspective() ? unit_or_zero(points_.P[i]) : forward;
-    I_.set(i, from_eye == glm::vec3(0.0f) ? forward : from_eye);
-  }
+  for (int i = 0; i < I_.count(); ++i) I_.set(i, view_direction(camera, points_.P[i]));
   points_.I = I_;
 }
 

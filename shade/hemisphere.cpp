@@ -10,10 +10,6 @@
 namespace tessera {
 namespace {
 
-bool all_finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Camera units.
 float longest_ray(const BoundLight& light, const LightServices& services) {
   const float world = light.parameters.scalar("maxdistance");
@@ -40,7 +36,7 @@ void illuminate_hemisphere(const BoundParameters& parameters, const ShadingPoint
 }
 
 glm::vec3 cosine_direction(const glm::vec3& N, const glm::vec2& xi) {
-  if (!all_finite(N) || N == glm::vec3(0.0f)) return glm::vec3(0.0f);
+  if (!is_finite(N) || N == glm::vec3(0.0f)) return glm::vec3(0.0f);
   const glm::vec2 disc = disc_from_square(xi);
   const float height = std::sqrt(std::max(0.0f, 1.0f - glm::dot(disc, disc)));
   const auto [x, y] = tangents(glm::dvec3(N));
@@ -65,12 +61,8 @@ void fill_hemisphere_coordinates(const Camera& camera, const Rays& rays, const V
   const LightExtent all_round{.infinite = true};
   for (int i = 0; i < rays.count(); ++i) {
     const ReceiverFrame frame = ReceiverFrame::at(camera, rays.origin[i], N[i]);
-    const EffectCoordinate at =
-        effect_coordinate(frame.pixels(rays.direction[i]), reach_of(all_round, frame));
-    for (size_t axis = 0; axis < 2; ++axis) {
-      out.y[axis][size_t(i)] = at.y[int(axis)];
-      out.extent[axis][size_t(i)] = at.extent[int(axis)];
-    }
+    const glm::vec2 pixels = frame.pixels(rays.direction[i]);
+    set_coordinate(size_t(i), effect_coordinate(pixels, reach_of(all_round, frame)), out);
   }
 }
 

@@ -2,7 +2,10 @@
 /// Lights that come from all directions over a surface: sampled one direction a point, with the
 /// density of the cosine to the normal.
 
+#include <cmath>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "shade/light.h"
 #include "shade/ray_tracer.h"
@@ -34,6 +37,27 @@ Rays hemisphere_rays(const BoundLight& light, const ShadingPoints& points,
 /// Zero where a point has no place on the raster.
 void fill_hemisphere_coordinates(const Camera& camera, const Rays& rays, const Vec3Input& N,
                                  ShareSamples& out);
+
+/// What asking for rays finds, one entry a ray.
+struct RayShares {
+  Vec3Array share;              ///< as in ShareSamples
+  std::vector<float> distance;  ///< of what is met first; infinite: nothing. Empty: not known
+};
+
+/// LightDefinition::share_from of these lights. ask(rays) gives the RayShares of rays from the
+/// points, whose distances become slopes.
+template <class Ask>
+void hemisphere_shares(const BoundLight& light, const ShadingPoints& points,
+                       std::span<const glm::vec2> xi, const LightServices& services, const Ask& ask,
+                       ShareSamples& out) {
+  out.reset(points.count);
+  const Rays rays = hemisphere_rays(light, points, xi, services);
+  RayShares found = ask(rays);
+  out.share = std::move(found.share);
+  for (size_t i = 0; i < found.distance.size(); ++i)
+    if (std::isfinite(found.distance[i])) out.slope[i] = found.distance[i];
+  if (services.camera) fill_hemisphere_coordinates(*services.camera, rays, points.N, out);
+}
 
 /// The mean share of a distributed light over `places` in [0, 1)^2, the same at every point, with
 /// normals N of `points` on the side that is lit. Resizes `out`. No places: zero.

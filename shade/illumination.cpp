@@ -123,8 +123,7 @@ void gather_places(const Gathering& gathering, const BoundLight& light) {
   const float weight = 1.0f / float(places.size());
   for (const glm::vec2& place : places) {
     std::ranges::fill(xi, place);
-    from.reset(facing.count);
-    light.definition->illuminate_from(light, facing, xi, from);
+    illuminate_from(light, facing, xi, &gathering.counters, from);
     Vec3Array& Cl = from.arriving.Cl;
     for (int i = 0; i < facing.count; ++i) Cl.set(i, weight * Cl[i]);
     if (casts) {

@@ -53,9 +53,11 @@ struct PlaceSamples {
                           ///< infinite lights; zero where there is nothing to be seen of it
   Vec3Array offset;  ///< of the place from LightExtent::centre, camera units; for infinite lights
                      ///< the part of the unit direction that is tangent to the surface
+  uint64_t texture_lookups = 0;  ///< that it took to find this
 
   void reset(int count) {
     for (auto* array : {&arriving.L, &arriving.Cl, &towards, &offset}) array->reset(count);
+    texture_lookups = 0;
   }
 };
 
@@ -148,8 +150,8 @@ struct BoundLight {
   TermRate rate = TermRate::cell;
   /// Which of SurfaceColors::light_terms is this light's; only where the rate is not `cell`.
   std::optional<size_t> term{};
-  /// Which of them is its own diffuse light, the mean over its places: what share_from() relates one
-  /// place to. Only of lights with a term and `illuminate_from`.
+  /// Which of them is its own diffuse light, the mean over its places: what share_from() relates
+  /// one place to. Only of lights with a term and `illuminate_from`.
   std::optional<size_t> mean_term{};
   SourceLocation where{};
   /// What the frame offers to its lights, without counters; null: nothing. Outlives the light.
@@ -164,5 +166,10 @@ struct BoundLight {
   /// Whether transmission() has anything to say.
   bool casts_shadows() const { return shadow || ray_traced; }
 };
+
+/// LightDefinition::illuminate_from of a light that has it, into `out` whatever that held before.
+/// Counts the light's look-ups of textures unless `counters` is null.
+void illuminate_from(const BoundLight& light, const ShadingPoints& points,
+                     std::span<const glm::vec2> xi, ShadeCounters* counters, PlaceSamples& out);
 
 }  // namespace tessera

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shade/fragment_points.h"
+#include "shade/mathematics.h"
 #include "shade/sample_places.h"
 
 namespace tessera {
@@ -131,7 +132,8 @@ struct EffectSum {
 
   void add_drawn(const glm::vec3& open, const Term& term, uint32_t fragment) {
     for (size_t c = 0; c < 3; ++c)
-      if (std::isfinite(open[int(c)])) values->drawn[c][fragment] += open[int(c)] * term[c][fragment];
+      if (std::isfinite(open[int(c)]))
+        values->drawn[c][fragment] += open[int(c)] * term[c][fragment];
   }
   void describe(const ShareSamples& shares, const Term& term, uint32_t fragment, size_t k) {
     const float brightness = luminance(term, fragment);
@@ -147,7 +149,7 @@ struct EffectSum {
 
 /// The share; nothing where that is not finite, which is counted.
 glm::vec3 finite_share(const glm::vec3& share, ShadeCounters& counters) {
-  if (std::isfinite(share.x) && std::isfinite(share.y) && std::isfinite(share.z)) return share;
+  if (is_finite(share)) return share;
   ++counters.nonfinite_dropped;
   return glm::vec3(0.0f);
 }
@@ -158,7 +160,7 @@ void gather(const Term& term, std::span<const uint32_t> fragments, Vec3Array& ou
     for (size_t k = 0; k < fragments.size(); ++k) out.component(int(c))[k] = term[c][fragments[k]];
 }
 
-/// A light that each sample has a place of its own on.
+/// A light of many directions a point: each sample has a place of its own on it.
 void apply_distributed(const TermTarget& to, const BoundLight& light, const Term& term,
                        EffectSum& sum) {
   const LookUps look_ups = look_ups_of(to.input, light, term);
@@ -194,20 +196,13 @@ void apply_distributed(const TermTarget& to, const BoundLight& light, const Term
   });
 }
 
-/// Whether the light takes a place of each sample's own; otherwise its transmission is one number.
-bool takes_places(const BoundLight& light) {
-  return light.definition->distributed() && !light.shadow;
-}
-
 /// Effects that some light has, sized and zeroed; the others emptied.
 std::array<EffectSum, ray_effect_count> start_effects(const TermTarget& to) {
   std::array<EffectSum, ray_effect_count> sums;
   const size_t fragments = to.input.fragments->size();
   for (size_t e = 0; e < ray_effect_count; ++e) {
     sums[e].values = &to.shaded.effects[e];
-    const bool wanted = std::ranges::any_of(to.bindings.term_lights(), [&](const BoundLight* l) {
-      return takes_places(*l) && size_t(l->definition->effect) == e;
-    });
+    const bool wanted = to.bindings.has_effect(RayEffect(e));
     sums[e].values->resize(wanted ? fragments : 0);
     if (wanted && RayEffect(e) == RayEffect::shadow) sums[e].values->add_drawn();
     sums[e].brightest.assign(wanted ? fragments : 0, 0.0f);
@@ -243,7 +238,7 @@ void apply_light_terms(const ShadeInput& input, const ShaderBindings& bindings,
   for (const BoundLight* bound : bindings.term_lights()) {
     const BoundLight& light = *bound;
     const Term& term = shaded.light_terms.at(*light.term);
-    if (takes_places(light)) {
+    if (light.definition->distributed()) {
       apply_distributed(to, light, term, sums[size_t(light.definition->effect)]);
     } else {
       apply_transmission(to, light, term);

@@ -20,10 +20,22 @@ inline float smoothstep(float low, float high, float x) {
   return a * a * (3.0f - 2.0f * a);
 }
 
-/// `v` / |v|, or zero for the zero vector.
+inline bool is_finite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+/// The normal `N` or its opposite, whichever does not point along `I` (faceforward of the RenderMan
+/// Interface).
+inline glm::vec3 turned_against(const glm::vec3& N, const glm::vec3& I) {
+  return glm::dot(N, I) > 0.0f ? -N : N;
+}
+
+/// `v` / |v|, or zero for the zero vector and for what is no number. In double: squares of floats
+/// of 1e20 and 1e-23 are none.
 inline glm::vec3 unit_or_zero(const glm::vec3& v) {
-  const float length = glm::length(v);
-  return length > 0.0f ? v / length : glm::vec3(0.0f);
+  const double length = glm::length(glm::dvec3(v));
+  return length > 0.0 && std::isfinite(length) ? glm::vec3(glm::dvec3(v) / length)
+                                               : glm::vec3(0.0f);
 }
 
 /// Two unit vectors at right angles to the unit vector `n` and to each other (T. Duff et al.,

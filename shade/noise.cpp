@@ -11,6 +11,7 @@ namespace tessera {
 namespace {
 
 constexpr float largest_coordinate = 1e8f;
+constexpr int most_octaves = 16;
 /// Mean of |gradient_noise| over space, by integration over 2^24 random points; tested.
 constexpr float mean_absolute_noise = 0.2201f;
 
@@ -63,9 +64,14 @@ float octave_share(float footprint, float frequency) {
   return 1.0f - smoothstep(0.25f, 0.75f, footprint * frequency);
 }
 
+int octave_count(float asked) {
+  // Before the conversion, which is undefined out of the range of int; fmax takes NaN to 0.
+  return int(std::fmin(std::fmax(asked, 0.0f), float(most_octaves)));
+}
+
 float fractal_noise(const glm::vec3& p, float footprint, int octaves) {
   float sum = 0.0f, frequency = 1.0f;
-  for (int k = 0; k < std::clamp(octaves, 0, 16); ++k, frequency *= 2.0f) {
+  for (int k = 0; k < std::min(octaves, most_octaves); ++k, frequency *= 2.0f) {
     const float share = octave_share(footprint, frequency);
     if (share <= 0.0f) break;
     sum += share * gradient_noise(p * frequency) / frequency;
@@ -75,7 +81,7 @@ float fractal_noise(const glm::vec3& p, float footprint, int octaves) {
 
 float turbulence(const glm::vec3& p, float footprint, int octaves) {
   float sum = 0.0f, frequency = 1.0f;
-  for (int k = 0; k < std::clamp(octaves, 0, 16); ++k, frequency *= 2.0f) {
+  for (int k = 0; k < std::min(octaves, most_octaves); ++k, frequency *= 2.0f) {
     const float share = octave_share(footprint, frequency);
     const float shown = share > 0.0f ? std::abs(gradient_noise(p * frequency)) : 0.0f;
     sum += mix(mean_absolute_noise, shown, share) / frequency;

@@ -14,6 +14,9 @@ float gradient_noise(const glm::vec3& p);
 /// cell is below a quarter of the octave's period, 0 once it is above three quarters.
 float octave_share(float footprint, float frequency);
 
+/// Whole octaves of a number asked for, between 0 and 16; none where it is NaN.
+int octave_count(float asked);
+
 /// Sum over `octaves` (at most 16) of 2^-k noise(2^k p), band-limited to `footprint` (0: not
 /// filtered).
 float fractal_noise(const glm::vec3& p, float footprint, int octaves);

@@ -2,7 +2,6 @@
 /// A batch of surface points to be shaded together. Who makes the batch (the vertices of a grid,
 /// the cells of a decoupled shading mode) is no concern of the shaders.
 
-#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -55,11 +54,6 @@ struct ShadingPoints {
       if (view.source->name == name) return &view;
     }
     return nullptr;
-  }
-  /// Length of the longer footprint axis at point i, camera units; 0 without footprints.
-  float footprint_length(int i) const {
-    if (!dPdx.x) return 0.0f;
-    return std::max(glm::length(dPdx[i]), glm::length(dPdy[i]));
   }
 };
 

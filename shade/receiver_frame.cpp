@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shade/mathematics.h"
+
 namespace tessera {
 namespace {
 
 /// Sine of the smallest angle between light and surface that shadows are carried along.
 constexpr float least_sine = 0.05f;
-
-bool all_finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 }  // namespace
 
@@ -26,7 +24,7 @@ ReceiverFrame ReceiverFrame::at(const Camera& camera, const glm::vec3& P, const 
   ReceiverFrame frame;
   for (size_t axis = 0; axis < 2; ++axis) {
     frame.row[axis] = of_raster[axis] - N * glm::dot(N, of_raster[axis]);
-    if (!all_finite(frame.row[axis])) return {};
+    if (!is_finite(frame.row[axis])) return {};
   }
   return frame;
 }
@@ -52,6 +50,13 @@ EffectCoordinate effect_coordinate(const glm::vec2& pixels, const glm::vec2& rea
     coordinate.y[axis] = std::clamp(y, -farthest_coordinate, farthest_coordinate);
   }
   return coordinate;
+}
+
+void set_coordinate(size_t i, const EffectCoordinate& coordinate, ShareSamples& out) {
+  for (size_t axis = 0; axis < 2; ++axis) {
+    out.y[axis][i] = coordinate.y[int(axis)];
+    out.extent[axis][i] = coordinate.extent[int(axis)];
+  }
 }
 
 glm::vec2 reach_of(const LightExtent& extent, const ReceiverFrame& frame) {

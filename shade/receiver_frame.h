@@ -36,6 +36,9 @@ struct EffectCoordinate {
 /// along each axis. All zero along an axis where the reach is zero or not finite.
 EffectCoordinate effect_coordinate(const glm::vec2& pixels, const glm::vec2& reach);
 
+/// Makes it that of entry i.
+void set_coordinate(size_t i, const EffectCoordinate& coordinate, ShareSamples& out);
+
 /// Pixels along x and y that the offsets of a light from its centre spread over: the half width of
 /// a uniform distribution of the same standard deviation.
 glm::vec2 reach_of(const LightExtent& extent, const ReceiverFrame& frame);

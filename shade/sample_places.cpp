@@ -7,7 +7,7 @@ namespace tessera {
 namespace {
 
 /// Nested uniform scramble of a fraction with 24 digits.
-float scrambled(float x, uint32_t seed) {
+float owen_scrambled(float x, uint32_t seed) {
   const auto digits = uint32_t(x * 16777216.0f);
   const uint32_t reversed = owen_scramble_reversed(reverse_bits(digits << 8), seed);
   return float(reverse_bits(reversed) >> 8) / 16777216.0f;
@@ -36,7 +36,7 @@ glm::vec2 SamplePlaces::of_sample(uint32_t sample) const {
   const uint32_t y = uint32_t(samples_.rect.y0) + pixel / width;
   const uint32_t seed = hash_combine(hash_combine(mix32(number_), x), y);
   const uint32_t other = first + permuted_index(sample - first, per_pixel, seed);
-  return {scrambled(x_[other], mix32(seed + 1)), scrambled(y_[other], mix32(seed + 2))};
+  return {owen_scrambled(x_[other], mix32(seed + 1)), owen_scrambled(y_[other], mix32(seed + 2))};
 }
 
 }  // namespace tessera

@@ -126,6 +126,9 @@ bool has_effect(const ShaderBindings& bindings, RayEffect effect);
 /// Hands over what answers rays, before the first shade(). Without it nothing is in the way of
 /// light and nothing bounces.
 void use_rays(ShaderBindings& bindings, std::shared_ptr<const RayTracer> rays);
+/// Memory of what has been shaded of surfaces as rays meet them. Not to be called while somebody
+/// shades.
+size_t bounce_bytes(const ShaderBindings& bindings);
 /// The displacement shaders of the scene, for dice/; null when no surface has one.
 std::unique_ptr<Displacer> make_displacer(std::shared_ptr<const ShaderBindings> bindings);
 /// Whether anything seen through such a surface could show: opacity below 1, or a shader or

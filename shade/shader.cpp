@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "shade/bindings.h"
+#include "shade/mathematics.h"
 
 namespace tessera {
 
@@ -64,19 +65,8 @@ const std::string& ShaderContext::string(std::string_view name) const {
 
 Vec3Array ShaderContext::facing_normals() const {
   Vec3Array facing(count());
-  for (int i = 0; i < count(); ++i) {
-    const glm::vec3 n = points_.N[i];
-    facing.set(i, glm::dot(n, points_.I[i]) > 0.0f ? -n : n);
-  }
+  for (int i = 0; i < count(); ++i) facing.set(i, turned_against(points_.N[i], points_.I[i]));
   return facing;
-}
-
-Illumination ShaderContext::gather(const Vec3Array& N) const {
-  return gather_from(services_.lights, N, nullptr, Shadows::cast);
-}
-
-Illumination ShaderContext::gather(const Vec3Array& N, const ScalarInput& roughness) const {
-  return gather_from(services_.lights, N, &roughness, Shadows::cast);
 }
 
 Illumination ShaderContext::gather_together(const Vec3Array& N,

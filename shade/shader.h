@@ -86,10 +86,6 @@ class ShaderContext {
 
   /// Unit normals turned towards the eye (faceforward of the RenderMan Interface).
   Vec3Array facing_normals() const;
-  /// Light arriving on surfaces with normals `N`, shadows included; without `roughness` no specular
-  /// sums.
-  Illumination gather(const Vec3Array& N) const;
-  Illumination gather(const Vec3Array& N, const ScalarInput& roughness) const;
 
   /// Calls color(light, i) for every point i: with the lights that have no term of their own taken
   /// together, which is added to out.Ci, and with each of the others, unshadowed, for its

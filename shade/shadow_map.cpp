@@ -40,9 +40,9 @@ constexpr double rounding = 4e-6;
 /// lattice; the last two are those of M. Roberts, "The unreasonable effectiveness of quasirandom
 /// sequences", 2018). Each point of a surface shifts them its own way, so that few samples give
 /// noise rather than bands.
-class SamplePlaces {
+class FilterPlaces {
  public:
-  SamplePlaces(int count, const glm::vec3& P) : count_(count) {
+  FilterPlaces(int count, const glm::vec3& P) : count_(count) {
     uint32_t seed = 0;
     for (int axis = 0; axis < 3; ++axis) {
       seed = hash_combine(seed, std::bit_cast<uint32_t>(P[axis]));
@@ -66,7 +66,7 @@ class SamplePlaces {
 };
 
 /// Two vectors that span the plane with normal `n`.
-std::array<glm::dvec3, 2> tangents(const glm::dvec3& n) {
+std::array<glm::dvec3, 2> plane_axes(const glm::dvec3& n) {
   const glm::dvec3 axis = std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 across = glm::cross(n, axis);
   return {across, glm::cross(n, across)};
@@ -180,7 +180,7 @@ void ShadowMap::light_share(const ShadingPoints& points, const glm::dmat4& world
     Receiver receiver;
     share[size_t(i)] = 1.0f;
     if (!receive(P, double(filter.bias), receiver)) continue;
-    const auto [across, along] = tangents(glm::dvec3(points.N[i]));
+    const auto [across, along] = plane_axes(glm::dvec3(points.N[i]));
     tilt(turn * across, turn * along, receiver);
     if (!spread) {
       share[size_t(i)] = float(lit_around(receiver.raster, receiver));
@@ -192,7 +192,7 @@ void ShadowMap::light_share(const ShadingPoints& points, const glm::dmat4& world
       y_axis = double(filter.width) * change(receiver, turn * glm::dvec3(points.dPdy[i])).raster;
     }
     const int samples = std::max(1, filter.samples);
-    const SamplePlaces places(samples, points.P[i]);
+    const FilterPlaces places(samples, points.P[i]);
     double lit = 0.0;
     for (int k = 0; k < samples; ++k) {
       const auto [a, b, c, d] = places[k];

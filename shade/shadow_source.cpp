@@ -10,10 +10,11 @@ namespace {
 
 std::string find_file(const std::string& file, const std::vector<std::string>& search_path) {
   const std::filesystem::path name(file);
-  if (name.is_absolute()) return file;
+  std::error_code ignored;
+  // Frames write to the working folder, so a map that an earlier frame has made comes first.
+  if (name.is_absolute() || std::filesystem::exists(name, ignored)) return file;
   for (const std::string& folder : search_path) {
     const std::filesystem::path candidate = folder / name;
-    std::error_code ignored;
     if (std::filesystem::exists(candidate, ignored)) return candidate.string();
   }
   return file;

@@ -41,7 +41,7 @@ class ShadowSource {
 /// The files that the lights of a frame name.
 class FrameShadows {
  public:
-  /// Relative names are looked for in the folders of `search_path`, then in the working folder.
+  /// Relative names are looked for in the working folder, then in the folders of `search_path`.
   FrameShadows(std::vector<std::string> search_path, const glm::dmat4& world_from_camera,
                Diagnostics& diagnostics)
       : search_path_(std::move(search_path)),

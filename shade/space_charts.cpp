@@ -78,12 +78,12 @@ SpaceCharts::SpaceCharts(const SpaceVertices& s) {
       winds(s, 1, s.u_count, s.v_count + 1) || winds(s, s.u_count + 1, s.u_count + 1, s.v_count);
   if (!folded && !in_blocks) return;
 
-  count_ = 0;
+  uint32_t count = 0;
   chart_.assign(turn.size(), no_chart);
   std::vector<int> open;
   for (int first = 0; first < s.triangle_count(); ++first) {
     if (chart_[size_t(first)] != no_chart) continue;
-    const uint32_t chart = count_++;
+    const uint32_t chart = count++;
     chart_[size_t(first)] = chart;
     open.push_back(first);
     while (!open.empty()) {

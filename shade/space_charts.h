@@ -27,11 +27,9 @@ class SpaceCharts {
   explicit SpaceCharts(const SpaceVertices& vertices);
 
   uint32_t of(uint32_t triangle) const { return chart_.empty() ? 0 : chart_[triangle]; }
-  uint32_t count() const { return count_; }
 
  private:
   std::vector<uint32_t> chart_;  ///< [triangle]; empty: all one
-  uint32_t count_ = 1;
 };
 
 }  // namespace tessera

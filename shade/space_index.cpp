@@ -15,7 +15,7 @@ struct Corners {
   Corner A, B, C;
 };
 
-Corners corners_at(const SpaceVertices& s, uint32_t triangle, float x, float y) {
+Corners corners_about(const SpaceVertices& s, uint32_t triangle, float x, float y) {
   const int m = int(triangle / 2), row = s.u_count + 1;
   const int a = m / s.u_count * row + m % s.u_count;
   const auto corner = [&](int i) {
@@ -120,7 +120,7 @@ bool SpaceIndex::fill_bins() {
 
 /// Whether the triangle lies over (x, y), and where.
 bool SpaceIndex::covers(uint32_t triangle, float x, float y, SurfacePoint& point) const {
-  const Corners c = corners_at(vertices_, triangle, x, y);
+  const Corners c = corners_about(vertices_, triangle, x, y);
   const float bc = cross(c.B, c.C), ca = cross(c.C, c.A), ab = cross(c.A, c.B);
   const float area = bc + ca + ab;
   const bool inside =
@@ -130,7 +130,7 @@ bool SpaceIndex::covers(uint32_t triangle, float x, float y, SurfacePoint& point
 }
 
 void SpaceIndex::consider_edges(uint32_t triangle, float x, float y, Best& best) const {
-  const Corners c = corners_at(vertices_, triangle, x, y);
+  const Corners c = corners_about(vertices_, triangle, x, y);
   const OnSegment on_ab = nearest_on_segment(c.A, c.B), on_bc = nearest_on_segment(c.B, c.C),
                   on_ca = nearest_on_segment(c.C, c.A);
   const float least = std::min({on_ab.distance2, on_bc.distance2, on_ca.distance2});

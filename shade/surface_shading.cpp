@@ -5,13 +5,10 @@
 #include <limits>
 
 #include "shade/extended_light.h"
+#include "shade/mathematics.h"
 
 namespace tessera {
 namespace {
-
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// `opacity` clamped to [0, 1]; a NaN becomes 1.
 glm::vec3 clamped(const glm::vec3& opacity) {
@@ -25,8 +22,8 @@ glm::vec3 clamped(const glm::vec3& opacity) {
 /// Returns how many points were dropped.
 uint64_t drop_nonfinite(const ShadingPoints& points, FailedPoint failed, SurfaceColors& out) {
   const auto all_finite = [&](int i) {
-    return finite(out.Ci[i]) && finite(out.Oi[i]) &&
-           std::ranges::all_of(out.light_terms, [&](const auto& term) { return finite(term[i]); });
+    return is_finite(out.Ci[i]) && is_finite(out.Oi[i]) &&
+           std::ranges::all_of(out.light_terms, [&](const auto& t) { return is_finite(t[i]); });
   };
   const glm::vec3 color(failed == FailedPoint::black ? 0.0f
                                                      : std::numeric_limits<float>::quiet_NaN());
@@ -69,9 +66,14 @@ void shade_surface(const ShaderBindings& bindings, const SurfaceBinding& surface
   definition.surface(context, out);
   if (surface.shines) add_own_light(*surface.shines, points, out);
   counters.points_shaded += uint64_t(points.count);
-  const uint64_t dropped = drop_nonfinite(points, failed, out);
+  report_dropped(bindings, surface, drop_nonfinite(points, failed, out), counters);
+}
+
+void report_dropped(const ShaderBindings& bindings, const SurfaceBinding& surface, uint64_t dropped,
+                    ShadeCounters& counters) {
   if (dropped == 0) return;
   counters.nonfinite_dropped += dropped;
+  const ShaderDefinition& definition = *surface.surface.definition;
   bindings.diagnostics().warn_once(
       "nonfinite " + definition.name, surface.surface.where,
       fmt::format("surface shader \"{}\" gave values that are not finite; such points are dropped",

@@ -19,4 +19,9 @@ void shade_surface(const ShaderBindings& bindings, const SurfaceBinding& surface
                    const ShadingPoints& points, FailedPoint failed, SurfaceColors& out,
                    ShadeCounters& counters);
 
+/// Counts points of a surface that were dropped because its shader gave values that are not finite,
+/// and names the shader once. Nothing for none.
+void report_dropped(const ShaderBindings& bindings, const SurfaceBinding& surface, uint64_t dropped,
+                    ShadeCounters& counters);
+
 }  // namespace tessera

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "rays/embree/embree_scene.h"
+#include "shade/mathematics.h"
 
 namespace tessera {
 
@@ -24,10 +25,6 @@ struct PreparedRay {
   PreparedRay(const Rays& rays, size_t i, float scale, RTCFilterFunctionN filter);
   float distance_of(float t) const { return float(double(t) / length); }
 };
-
-bool is_finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 /// The largest t whose distance is less than `far`.
 float last_t_before(float far, double length) {

@@ -7,10 +7,17 @@
 #include <tbb/task_arena.h>
 
 #include "base/error.h"
+#include "shade/fragment_geometry.h"
 
 namespace tessera {
 
 namespace {
+
+/// A geometry until it is handed over, or something fails before.
+struct ReleaseGeometry {
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+using OwnGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, ReleaseGeometry>;
 
 constexpr int most_intervals = 64;
 constexpr float key_tolerance = 1e-4f;
@@ -25,22 +32,6 @@ size_t vertex_count(std::span<const uint32_t> grids, const auto& all) {
   size_t count = 0;
   for (uint32_t g : grids) count += size_t(all[g]->vertex_count());
   return count;
-}
-
-/// Where in a grid's keys a time lies.
-struct KeyPosition {
-  int key = 0;
-  float weight = 0;  ///< of key + 1
-};
-
-KeyPosition key_position(std::span<const float> times, float t) {
-  KeyPosition at;
-  while (at.key + 1 < int(times.size()) && times[size_t(at.key) + 1] <= t) ++at.key;
-  if (at.key + 1 < int(times.size())) {
-    const float t0 = times[size_t(at.key)], t1 = times[size_t(at.key) + 1];
-    at.weight = std::clamp((t - t0) / (t1 - t0), 0.0f, 1.0f);
-  }
-  return at;
 }
 
 /// The power of two that brings the largest coordinate into [1, 2). What is beyond 1e15 does not
@@ -62,12 +53,11 @@ float scale_of(std::span<const std::shared_ptr<const Grid>> grids) {
 }
 
 /// Vertices of a grid between two keys, as x, y, z, x, y, z, ...
-void write_vertices(const Grid& grid, const KeyPosition& at, float scale, float* xyz) {
+void write_vertices(const Grid& grid, const KeyBlend& at, float scale, float* xyz) {
   for (int axis = 0; axis < 3; ++axis) {
-    const float* from = grid.P(at.key, axis);
-    const float* to = at.weight > 0 ? grid.P(at.key + 1, axis) : from;
+    const float *from = grid.P(at.before, axis), *to = grid.P(at.after, axis);
     for (int k = 0; k < grid.vertex_count(); ++k) {
-      xyz[3 * k + axis] = scale * (from[k] + at.weight * (to[k] - from[k]));
+      xyz[3 * k + axis] = scale * (from[k] + at.share * (to[k] - from[k]));
     }
   }
 }
@@ -156,13 +146,13 @@ void EmbreeScene::add_geometry(std::span<const uint32_t> grids, RayScene& scene)
     }
     scene.near[g] = {};
   }
-  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-  fill_triangles(geometry, grids);
-  fill_vertices(geometry, grids);
-  rtcSetGeometryUserData(geometry, met.get());
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometryByID(scene_, geometry, unsigned(geometries_.size()));
-  rtcReleaseGeometry(geometry);
+  const OwnGeometry geometry(rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE));
+  check("starting on triangles");
+  fill_triangles(geometry.get(), grids);
+  fill_vertices(geometry.get(), grids);
+  rtcSetGeometryUserData(geometry.get(), met.get());
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometryByID(scene_, geometry.get(), unsigned(geometries_.size()));
   geometries_.push_back(std::move(met));
   check("handing over triangles");
 }
@@ -192,7 +182,7 @@ void EmbreeScene::fill_vertices(RTCGeometry geometry, std::span<const uint32_t> 
                                 3 * sizeof(float), vertex_count(grids, grids_)));
     check("making room for vertices");
     const float t = intervals > 0 ? float(step) / float(intervals) : 0.0f;
-    const KeyPosition at = key_position(times, t);
+    const KeyBlend at(*grids_[grids.front()], t);
     for (uint32_t g : grids) {
       write_vertices(*grids_[g], at, scale_, xyz);
       xyz += 3 * grids_[g]->vertex_count();

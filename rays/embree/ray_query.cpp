@@ -50,15 +50,19 @@ struct Proposal {
 
   void take_down_layer() const {
     const float t = ray.tfar, noise = query.height_noise + layer_noise * t;
-    const auto end = query.layers.begin() + long(query.layer_count);
-    const bool is_known = std::any_of(query.layers.begin(), end, [&](const RayQuery::Layer& l) {
+    const auto is_this = [&](const RayQuery::Layer& l) {
       return l.surface == micropolygon.surface && std::abs(l.t - t) <= noise;
-    });
+    };
+    const auto end = query.layers.begin() + long(query.layer_count);
     query.nearest_layer_t = std::min(query.nearest_layer_t, t);
-    if (is_known) return;
+    if (std::any_of(query.layers.begin(), end, is_this)) return;
+    if (std::ranges::any_of(query.further_layers, is_this)) return;
     query.log2_passing += grid().log2_passing;
+    const RayQuery::Layer layer{micropolygon.surface, t};
     if (query.layer_count < query.layers.size()) {
-      query.layers[query.layer_count++] = {micropolygon.surface, t};
+      query.layers[query.layer_count++] = layer;
+    } else {
+      query.further_layers.push_back(layer);
     }
   }
 };

@@ -50,8 +50,9 @@ struct RayQuery {
     int32_t surface;
     float t;
   };
-  std::array<Layer, 32> layers;  ///< further ones are not checked for being met twice
+  std::array<Layer, 32> layers;  ///< the first that Embree proposed
   size_t layer_count = 0;
+  std::vector<Layer> further_layers;  ///< those after them: few rays meet as many
   float nearest_layer_t = std::numeric_limits<float>::infinity();
   int64_t log2_passing = 0;
 };

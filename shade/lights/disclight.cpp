@@ -14,13 +14,7 @@ LightExtent measure(const BoundParameters& parameters, const glm::dmat4& camera_
 
 void illuminate_from(const BoundLight& light, const ShadingPoints& points,
                      std::span<const glm::vec2> xi, PlaceSamples& out) {
-  const glm::vec3 radiance = radiance_of(light.parameters);
-  const LightExtent& extent = light.extent;
-  for (int i = 0; i < points.count; ++i) {
-    const glm::vec2 at = disc_from_square(xi[size_t(i)]);
-    const glm::vec3 place = extent.centre + at.x * extent.half_axes[0] + at.y * extent.half_axes[1];
-    set_place(light, points.P[i], {place, extent.normal}, radiance, false, i, out);
-  }
+  illuminate_flat(light, points, xi, disc_from_square, out);
 }
 
 }  // namespace

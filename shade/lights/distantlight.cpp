@@ -1,14 +1,13 @@
 #include "shade/light_shadows.h"
+#include "shade/mathematics.h"
 
 namespace tessera {
 namespace {
 
 void illuminate(const BoundParameters& parameters, const ShadingPoints& points, LightSamples& out) {
-  const glm::vec3 towards = parameters.vec3("from") - parameters.vec3("to");
-  const float length = glm::length(towards);
-  if (!(length > 0.0f)) return;  // from and to coincide: no direction, no light
+  const glm::vec3 L = unit_or_zero(parameters.vec3("from") - parameters.vec3("to"));
+  if (L == glm::vec3(0.0f)) return;  // from and to coincide: no direction, no light
   const glm::vec3 color = parameters.scalar("intensity") * parameters.vec3("lightcolor");
-  const glm::vec3 L = towards / length;
   for (int i = 0; i < points.count; ++i) {
     out.L.set(i, L);
     out.Cl.set(i, color);

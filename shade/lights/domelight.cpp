@@ -84,7 +84,9 @@ void illuminate_from(const BoundLight& light, const ShadingPoints& points,
     // Of the hemisphere, what one of the light's places stands for.
     if (mapped) lookups.set(i, L, pi * per_cosine / float(light.places.size()));
   }
-  if (mapped) lookups.look_up(out.arriving.Cl);
+  if (!mapped) return;
+  lookups.look_up(out.arriving.Cl);
+  out.texture_lookups = uint64_t(points.count);
 }
 
 }  // namespace

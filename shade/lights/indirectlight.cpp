@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "shade/bounce_rays.h"
 #include "shade/hemisphere.h"
 
@@ -8,16 +6,12 @@ namespace {
 
 void share_from(const BoundLight& light, const ShadingPoints& points, std::span<const glm::vec2> xi,
                 const LightServices& services, ShareSamples& out) {
-  out.reset(points.count);
-  const Rays rays = hemisphere_rays(light, points, xi, services);
-  BounceArrivals arrivals;
-  follow_rays(rays, services, arrivals);
-  for (int i = 0; i < points.count; ++i) {
-    const float distance = arrivals.distance[size_t(i)];
-    out.share.set(i, arrivals.radiance[i]);
-    if (std::isfinite(distance)) out.slope[size_t(i)] = distance;
-  }
-  if (services.camera) fill_hemisphere_coordinates(*services.camera, rays, points.N, out);
+  const auto ask = [&](const Rays& rays) {
+    BounceArrivals arrivals;
+    follow_rays(rays, services, arrivals);
+    return RayShares{std::move(arrivals.radiance), std::move(arrivals.distance)};
+  };
+  hemisphere_shares(light, points, xi, services, ask, out);
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "shade/hemisphere.h"
 #include "shade/shade.h"
 
@@ -8,20 +6,20 @@ namespace {
 
 void share_from(const BoundLight& light, const ShadingPoints& points, std::span<const glm::vec2> xi,
                 const LightServices& services, ShareSamples& out) {
-  out.reset(points.count);
-  const Rays rays = hemisphere_rays(light, points, xi, services);
-  const RayTracer* tracer = light.ray_traced ? services.rays : nullptr;
-  RayShadows shadows;
-  if (tracer) {
-    tracer->shadow(rays, shadows);
-    services.counters->rays += uint64_t(rays.count());
-  }
-  for (int i = 0; i < points.count; ++i) {
-    const size_t k = size_t(i);
-    out.share.set(i, glm::vec3(tracer ? shadows.share[k] : 1.0f));
-    if (tracer && std::isfinite(shadows.distance[k])) out.slope[k] = shadows.distance[k];
-  }
-  if (services.camera) fill_hemisphere_coordinates(*services.camera, rays, points.N, out);
+  const auto ask = [&](const Rays& rays) {
+    RayShares found{Vec3Array(rays.count()), {}};
+    RayShadows shadows;
+    const RayTracer* tracer = light.ray_traced ? services.rays : nullptr;
+    if (tracer) {
+      tracer->shadow(rays, shadows);
+      services.counters->rays += uint64_t(rays.count());
+      found.distance = std::move(shadows.distance);
+    }
+    for (int i = 0; i < rays.count(); ++i)
+      found.share.set(i, glm::vec3(tracer ? shadows.share[size_t(i)] : 1.0f));
+    return found;
+  };
+  hemisphere_shares(light, points, xi, services, ask, out);
 }
 
 }  // namespace

@@ -12,13 +12,8 @@ LightExtent measure(const BoundParameters& parameters, const glm::dmat4& camera_
 
 void illuminate_from(const BoundLight& light, const ShadingPoints& points,
                      std::span<const glm::vec2> xi, PlaceSamples& out) {
-  const glm::vec3 radiance = radiance_of(light.parameters);
-  const LightExtent& extent = light.extent;
-  for (int i = 0; i < points.count; ++i) {
-    const glm::vec2 at = 2.0f * xi[size_t(i)] - 1.0f;
-    const glm::vec3 place = extent.centre + at.x * extent.half_axes[0] + at.y * extent.half_axes[1];
-    set_place(light, points.P[i], {place, extent.normal}, radiance, false, i, out);
-  }
+  illuminate_flat(
+      light, points, xi, [](const glm::vec2& square) { return 2.0f * square - 1.0f; }, out);
 }
 
 }  // namespace

@@ -8,10 +8,8 @@ namespace {
 
 void illuminate(const BoundParameters& parameters, const ShadingPoints& points, LightSamples& out) {
   const glm::vec3 from = parameters.vec3("from");
-  const glm::vec3 along = parameters.vec3("to") - from;
-  const float axis_length = glm::length(along);
-  if (!(axis_length > 0.0f)) return;  // from and to coincide: no axis, no light
-  const glm::vec3 axis = along / axis_length;
+  const glm::vec3 axis = unit_or_zero(parameters.vec3("to") - from);
+  if (axis == glm::vec3(0.0f)) return;  // from and to coincide: no axis, no light
   const glm::vec3 color = parameters.scalar("intensity") * parameters.vec3("lightcolor");
   const float cone_angle = parameters.scalar("coneangle");
   const float cos_outer = std::cos(cone_angle);

@@ -5,6 +5,7 @@
 #include "shade/cell_name.h"
 #include "shade/grid_attachments.h"
 #include "shade/grid_points.h"
+#include "shade/mode_arguments.h"
 #include "shade/surface_shading.h"
 
 namespace tessera {
@@ -161,10 +162,7 @@ class ReyesShading : public Shading {
 ShadingModeDefinition shading_mode_reyes() {
   return {"reyes", "shade the vertices of visible grids at the shading rate and interpolate",
           [](std::string_view arguments, const ShadingFrame& frame) -> std::unique_ptr<Shading> {
-            if (!arguments.empty()) {
-              throw Error(fmt::format("shading mode \"reyes\" takes no arguments, found \"{}\"",
-                                      arguments));
-            }
+            read_mode_arguments("reyes", arguments, {});
             return std::make_unique<ReyesShading>(frame.bindings);
           }};
 }

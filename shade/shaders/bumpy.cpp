@@ -10,7 +10,7 @@ void displace(const ShaderContext& context, std::span<float> distance) {
   const PatternPoints pattern = context.pattern_points();
   for (int i = 0; i < context.count(); ++i) {
     distance[size_t(i)] =
-        amplitude[i] * fractal_noise(frequency[i] * pattern.P[i], 0.0f, int(octaves[i]));
+        amplitude[i] * fractal_noise(frequency[i] * pattern.P[i], 0.0f, octave_count(octaves[i]));
   }
 }
 

@@ -45,6 +45,7 @@ TEST_CASE("statistics are complete and consistent") {
     CHECK(json["counts"][name] == 0);
   }
   CHECK(json["memory_bytes"]["ray_bytes"] == 0);
+  CHECK(json["memory_bytes"]["bounce_bytes"] == 0);
   CHECK(json["times_s"]["filter_s"] == 0.0);
   CHECK_FALSE(json["ratios"].contains("aaf_bound_spp"));
 }
@@ -65,6 +66,9 @@ TEST_CASE("statistics tell what rays, more samples and filters cost") {
   CHECK(counts["samples"].get<long>() >= 32 * 24 * 4 + counts["extra_samples"].get<long>());
   CHECK(counts["extra_samples"].get<long>() <= 32 * 24 * 100);
   CHECK(json["memory_bytes"]["ray_bytes"].get<long>() > 1000);
+  // Three floats for every point that bounces asked for and more, for each side of every grid.
+  CHECK(json["memory_bytes"]["bounce_bytes"].get<long>() >
+        12 * counts["bounce_points_shaded"].get<long>());
   CHECK(json["times_s"]["filter_s"].get<double>() > 0);
   CHECK(json["ratios"]["aaf_bound_spp"].get<double>() >= 4);
   for (const char* need : {"lens", "area_lights", "bounce", "ray_tracing"}) {

@@ -487,7 +487,7 @@ TEST_CASE("Sample test efficiency under motion and defocus at once is that of th
 
 namespace {
 
-/// Grids that no single map serves, moving and through a lens.
+/// Grids that no single map serves, moving, and every other one through a lens.
 TestBucket refused_bucket(int kind, int k) {
   CameraSettings settings = perspective_settings(64, 48);
   settings.near_clip = 0.05;
@@ -521,7 +521,8 @@ TEST_CASE("Where the map is refused the fragments are still those of bbox") {
       const TestBucket bucket = refused_bucket(kind, k);
       INFO(kinds[kind] << ", variant " << k);
       const FitCase whole(bucket, *bucket.grids[0], bucket.samples.rect);
-      if (kind < 2) CHECK_FALSE(whole.usable());
+      // Edge-on through a pinhole it is not: what little is seen keeps its shape.
+      CHECK(whole.usable() == (kind == 2 && k % 2 == 0));
       const FragmentList expected = bucket.hide("bbox");
       CHECK(expected.size() > 0);
       CHECK(same_fragments(expected, bucket.hide("shear")));

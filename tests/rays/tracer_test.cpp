@@ -118,6 +118,24 @@ TEST_CASE("a ray through edges and vertices meets each layer once", "[rays]") {
   }
 }
 
+TEST_CASE("each of very many layers that a ray meets on an edge counts once", "[rays]") {
+  DiceScene scene;
+  const int layers = 100;
+  for (int k = 0; k < layers; ++k)
+    add_square(scene, 3.0f + 0.1f * float(k), with_opacity(glm::vec3(0.01f)));
+  RaySettings settings;
+  settings.dicing_rate = 1000;
+  const auto tracer = tracer_of(scene, settings);
+  const double expected = std::pow(0.99, layers);
+  // Through the middle of the squares run diagonals, through the rest of the x axis other edges.
+  for (const float x : {-0.75f, -0.5f, -0.25f, 0.0f, 0.25f, 0.5f}) {
+    for (const glm::vec3 start : {glm::vec3(x, 0, 0), glm::vec3(x, x, 0)}) {
+      CHECK(double(shadow(*tracer, one_ray(start, ahead)).share[0]) ==
+            Approx(expected).epsilon(1e-6));
+    }
+  }
+}
+
 TEST_CASE("of surfaces in one place the first is met", "[rays]") {
   DiceScene scene;
   for (int k = 0; k < 3; ++k) add_square(scene, 3);

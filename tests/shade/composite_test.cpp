@@ -106,16 +106,8 @@ TEST_CASE("position follows the sample's time and motion is the shift on screen"
   const Surface& surface = test.add_surface(Attributes{});
   test.bind();
   const auto grid = make_square(surface, 1, 2.0f);
-  const size_t stride = grid->stride();
-  grid->key_times = {0.0f, 0.25f, 1.0f};
-  const AlignedVector<float> rest = grid->P_camera;
-  for (int key = 1; key < 3; ++key) {
-    grid->P_camera.insert(grid->P_camera.end(), rest.begin(), rest.end());
-    for (size_t k = 0; k < stride; ++k) {
-      grid->P(key, 0)[k] += key == 1 ? 1.0f : -2.0f;
-      if (key == 2) grid->P(key, 2)[k] += 2.0f;
-    }
-  }
+  add_key(*grid, 0.25f, [](const glm::vec3& P) { return P + glm::vec3(1, 0, 0); });
+  add_key(*grid, 1.0f, [](const glm::vec3& P) { return P + glm::vec3(-2, 0, 2); });
   TestBucket bucket(3);
   bucket.samples.t = {0.0f, 0.125f, 0.625f};
   bucket.grids = {grid};
@@ -138,7 +130,7 @@ TEST_CASE("position follows the sample's time and motion is the shift on screen"
   // 100 pixels over 2 units at depth 1: x / z goes from 0.25 to -1.5 / 4.
   for (size_t s = 0; s < 3; ++s) CHECK(out[1][s] == Approx((-0.375 - 0.25) * 50.0));
   CHECK(out[1][3] == Approx(0.0).margin(1e-5));
-  for (size_t k = 0; k < stride; ++k) grid->P(2, 2)[k] = -1.0f;
+  for (size_t k = 0; k < grid->stride(); ++k) grid->P(2, 2)[k] = -1.0f;
   composite(bucket.input(), shaded, *test.camera, groups, out);
   CHECK(out[1][0] == 0.0f);  // ends behind the eye
 }

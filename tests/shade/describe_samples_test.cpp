@@ -184,10 +184,7 @@ TEST_CASE("a point is seen at its place through the lens centre plus coc times t
 TEST_CASE("velocity is the raster shift over the shutter, zero where it has none") {
   Layers layers;
   auto moving = make_square(layers.test.scene.surfaces[0], 1, 2.0f);
-  moving->key_times = {0.0f, 1.0f};
-  const AlignedVector<float> rest = moving->P_camera;
-  moving->P_camera.insert(moving->P_camera.end(), rest.begin(), rest.end());
-  for (size_t k = 0; k < moving->stride(); ++k) moving->P(1, 0)[k] += 1.0f;
+  add_key(*moving, 1.0f, [](const glm::vec3& P) { return P + glm::vec3(1, 0, 0); });
   layers.bucket.grids[0] = moving;
   // 100 pixels over 2 units at depth 1: one unit at depth 2 is 25.
   CHECK(layers.describe().surfaces.velocity[0][0] == Approx(25.0));

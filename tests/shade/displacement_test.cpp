@@ -100,6 +100,21 @@ TEST_CASE("Pref, in object space, takes the place of P") {
   CHECK(displaced(test.bind(), *grid)[3] == Approx(1.0));  // sin(2 pi / 4)
 }
 
+TEST_CASE("lumps have any number of octaves up to 16, whatever is asked for") {
+  const auto lumps = [](float octaves) {
+    TestScene test;
+    const auto grid =
+        make_square(test.add_surface(with_displacement(
+                        call("bumpy", {number("octaves", octaves), number("frequency", 3.3f)}))),
+                    8, 5.0f);
+    return displaced(test.bind(), *grid);
+  };
+  for (const float many : {17.0f, 1e10f, 1e38f, INFINITY}) CHECK(lumps(many) == lumps(16.0f));
+  for (const float none : {-1e10f, -INFINITY, std::nanf("")}) CHECK(lumps(none) == lumps(0.0f));
+  CHECK(lumps(16.0f) != lumps(15.0f));
+  CHECK(lumps(1.0f) != lumps(0.0f));
+}
+
 TEST_CASE("a displacement that is not finite leaves the point where it is") {
   TestScene test;
   const auto grid = make_square(

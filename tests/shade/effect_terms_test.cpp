@@ -6,10 +6,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "hide/samples.h"
-#include "shade/fragment_points.h"
 #include "shade/light_terms.h"
 #include "shade/sample_places.h"
-#include "tests/shade/ray_fixtures.h"
+#include "tests/shade/bounce_fixtures.h"
 
 using namespace tessera;
 using namespace tessera::test;
@@ -70,12 +69,6 @@ double mean(const std::vector<float>& values) {
   return sum / double(values.size());
 }
 
-/// See tests/shade/hemisphere_test.cpp.
-double upright_rectangle(double distance, double width, double height) {
-  const double r = std::hypot(distance, height);
-  return (std::atan(width / distance) - distance / r * std::atan(width / r)) /
-         (2.0 * 3.14159265358979);
-}
 /// What the wall leaves open of the sky over the point that samples see.
 double open_share() {
   const double d = 0.5 - 1.0 / 3.0;
@@ -291,10 +284,7 @@ TEST_CASE("what moves is met where it was when the sample was taken") {
   auto lid = make_grid(yard.wall(), 1, 1, [](float u, float v) {
     return glm::vec3(200.0f * u - 100.0f, 200.0f * v - 100.0f, 2.99f);
   });
-  lid->key_times = {0.0f, 1.0f};
-  const AlignedVector<float> rest = lid->P_camera;
-  lid->P_camera.insert(lid->P_camera.end(), rest.begin(), rest.end());
-  for (size_t k = 0; k < lid->stride(); ++k) lid->P(1, 0)[k] += 400.0f;
+  add_key(*lid, 1.0f, [](const glm::vec3& P) { return P + glm::vec3(400, 0, 0); });
   use_rays(*yard.bindings,
            std::make_shared<BruteTracer>(std::vector<std::shared_ptr<const Grid>>{lid}));
   TestBucket bucket = bucket_of(yard.floor(), {0, 0, 4, 4}, 4);
@@ -308,128 +298,4 @@ TEST_CASE("what moves is met where it was when the sample was taken") {
     (s % 2 == 0 ? early : late) += shaded.fragments.Ci[0][s] == 0.0f;
   CHECK(early == 32);
   CHECK(late == 0);
-}
-
-TEST_CASE("points are carried along with surfaces that turn") {
-  TestScene test;
-  const Surface& surface = test.add_surface("matte");
-  test.bind();
-  // A cap of a ball that turns by 1 radian about its centre, 4 before the eye, with 64 keys.
-  const glm::dvec3 centre(0, 0, 4);
-  const auto normal = [](float u, float v) {
-    const float x = 0.5f * (u - 0.5f), y = 0.5f * (v - 0.5f);
-    return glm::vec3(x, y, -std::sqrt(1.0f - x * x - y * y));
-  };
-  const auto turned = [](const glm::dvec3& p, double t) {
-    return glm::dvec3(p.x * std::cos(t) + p.z * std::sin(t), p.y,
-                      -p.x * std::sin(t) + p.z * std::cos(t));
-  };
-  auto grid =
-      make_grid(surface, 4, 4, [&](float u, float v) { return glm::vec3(centre) + normal(u, v); });
-  set_normals(*grid, normal);
-  const AlignedVector<float> rest = grid->P_camera;
-  for (int key = 1; key <= 64; ++key) {
-    grid->key_times.push_back(float(key) / 64.0f);
-    grid->P_camera.insert(grid->P_camera.end(), rest.begin(), rest.end());
-    for (size_t k = 0; k < grid->stride(); ++k) {
-      const glm::dvec3 p(rest[k], rest[grid->stride() + k], rest[2 * grid->stride() + k]);
-      const glm::dvec3 q = centre + turned(p - centre, key / 64.0);
-      for (int axis = 0; axis < 3; ++axis) grid->P(key, axis)[k] = float(q[axis]);
-    }
-  }
-  TestBucket bucket(32);
-  bucket.grids = {grid};
-  std::vector<uint32_t> all;
-  for (uint32_t k = 0; k < 32; ++k) {
-    bucket.add(0, k, 0.3f, 0.4f, 3.0f);
-    bucket.finish_sample();
-    bucket.samples.t.push_back(float(k) / 31.0f);
-    all.push_back(k);
-  }
-  const ShadeInput input = bucket.input();
-  const FragmentPoints open(input, all, PointTime::shutter_open, *test.camera, false);
-  const FragmentPoints then(input, all, PointTime::of_sample, *test.camera, true);
-  CHECK(open.points().time == nullptr);
-  CHECK(then.points().dPdx.x != nullptr);
-  for (int k = 0; k < 32; ++k) {
-    const double t = double(bucket.samples.t[size_t(k)]);
-    const glm::dvec3 P = centre + turned(glm::dvec3(open.points().P[k]) - centre, t);
-    // Keys 1/64 apart are joined by chords, up to 1 - cos(1/128) = 3.1e-5 inside.
-    CHECK(glm::length(glm::dvec3(then.points().P[k]) - P) < 4e-5);
-    const glm::dvec3 N = turned(glm::dvec3(open.points().N[k]), t);
-    // Towards the eye all the time, for the triangle turns by less than a right angle.
-    CHECK(glm::length(glm::dvec3(then.points().N[k]) - N) < 1e-4);
-    CHECK(then.points().time[k] == bucket.samples.t[size_t(k)]);
-    CHECK(then.points().surface[k] == surface.id);
-    // On the ball, where the triangle is not: its corners are 1/8 apart.
-    CHECK(glm::length(glm::dvec3(open.points().P[k]) - centre) == Approx(1.0).margin(2e-4));
-  }
-}
-
-TEST_CASE("normals of surfaces seen from behind point to the eye, and lost ones harm nobody") {
-  TestScene test;
-  const Surface& surface = test.add_surface("matte");
-  test.bind();
-  auto away = make_square(surface, 1, 3.0f), flat = make_square(surface, 1, 3.0f);
-  set_normals(*away, [](float, float) { return glm::vec3(0, 0, 1); });
-  for (float& p : flat->P_camera) p = 1.0f;
-  for (float& n : flat->N_camera) n = 0.0f;
-  flat->key_times = {0.0f, 1.0f};
-  const AlignedVector<float> rest = flat->P_camera;
-  flat->P_camera.insert(flat->P_camera.end(), rest.begin(), rest.end());
-  TestBucket bucket(2);
-  bucket.grids = {away, flat};
-  bucket.samples.t = {0.5f, 0.5f};
-  bucket.add(0, 0, 0.25f, 0.25f, 3.0f);
-  bucket.finish_sample();
-  bucket.add(1, 1, 0.25f, 0.25f, 1.0f);
-  bucket.finish_sample();
-  const std::vector<uint32_t> all{0, 1};
-  const FragmentPoints points(bucket.input(), all, PointTime::of_sample, *test.camera, false);
-  CHECK(points.points().N[0] == glm::vec3(0, 0, -1));
-  CHECK(points.points().N[1] == glm::vec3(0, 0, 0));
-  CHECK(points.points().P[1] == glm::vec3(1, 1, 1));
-}
-
-TEST_CASE("further lights of an effect have nets of their own that tell nothing of the first") {
-  SampleBlock block;
-  SamplePattern(16, 5, nullptr, nullptr, {}, {true, true}).fill({3, 2, 35, 34}, block);
-  const SamplePlaces first(block, RayEffect::shadow, 0), second(block, RayEffect::shadow, 1),
-      third(block, RayEffect::shadow, 2), other(block, RayEffect::bounce, 1);
-  double ab = 0, bc = 0, bd = 0, pixels_ab = 0, order = 0;
-  const double n = double(block.size());
-  for (uint32_t s = 0; s < block.size(); s += 16) {
-    double pixel_a = 0, pixel_b = 0, within = 0;
-    for (const SamplePlaces* places : {&second, &third}) {
-      bool hit[4][4] = {}, row[16] = {}, column[16] = {};
-      for (uint32_t k = s; k < s + 16; ++k) {
-        const glm::vec2 at = places->of_sample(k);
-        REQUIRE((at.x >= 0 && at.x < 1 && at.y >= 0 && at.y < 1));
-        hit[int(at.x * 4)][int(at.y * 4)] = true;
-        row[int(at.y * 16)] = true, column[int(at.x * 16)] = true;
-      }
-      REQUIRE(std::count(&hit[0][0], &hit[0][0] + 16, true) == 16);
-      REQUIRE(std::count(row, row + 16, true) == 16);
-      REQUIRE(std::count(column, column + 16, true) == 16);
-    }
-    for (uint32_t k = s; k < s + 16; ++k) {
-      const glm::dvec2 a(first.of_sample(k)), b(second.of_sample(k)), c(third.of_sample(k));
-      const glm::dvec2 d(other.of_sample(k));
-      REQUIRE(a == glm::dvec2(block.light_x[k], block.light_y[k]));
-      ab += (a.x - 0.5) * (b.x - 0.5) * 12 / n, bc += (b.x - 0.5) * (c.x - 0.5) * 12 / n;
-      bd += (b.y - 0.5) * (d.y - 0.5) * 12 / n;
-      pixel_a += a.x - 0.5, pixel_b += b.x - 0.5;
-      within += (a.x - 0.5) * (b.x - 0.5) * 12 / 16;
-    }
-    // The error of a pixel's 16: each is uniform within 1/16, so the sum has variance 16/12/256.
-    pixels_ab += pixel_a * pixel_b / (16.0 / 12 / 256) / (n / 16);
-    order += within * within / (n / 16);
-  }
-  // 1 / sqrt(16384) = 0.008 a deviation, 1 / sqrt(1024) = 0.031 for pixels; five of them.
-  CHECK(std::abs(ab) < 0.04);
-  CHECK(std::abs(bc) < 0.04);
-  CHECK(std::abs(bd) < 0.04);
-  CHECK(std::abs(pixels_ab) < 0.16);
-  // Sixteen pairs in any order: 1/15. In one order, whose first digits agree or all differ: half.
-  CHECK(order < 0.15);
 }

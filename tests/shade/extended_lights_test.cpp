@@ -1,9 +1,11 @@
 #include <catch2/catch.hpp>
 
+#include <atomic>
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "shade/surface_shading.h"
 #include "tests/shade/light_fixtures.h"
 
 using namespace tessera;
@@ -49,6 +51,40 @@ std::vector<glm::dvec3> rectangle_corners(const glm::dmat4& from_light, double w
 }
 
 const glm::dmat4 identity(1.0);
+
+/// (z of the direction + 1, whether x > 0, 1) as a latitude-longitude picture, for "sky.tex".
+struct SkySampler : TextureSampler {
+  std::atomic<uint64_t>* asked;
+  explicit SkySampler(std::atomic<uint64_t>* points_asked) : asked(points_asked) {}
+
+  TextureResult sample(const TextureRequest& request, const TexturePoints& points,
+                       std::span<float> out) override {
+    if (request.file != "sky.tex") return {false, "no such file"};
+    const size_t n = points.s.size();
+    *asked += n;
+    for (size_t i = 0; i < n; ++i) {
+      const bool ahead = points.s[i] > 0.25f && points.s[i] < 0.75f;
+      out[i] = std::cos(float(M_PI) * points.t[i]) + 1.0f, out[n + i] = ahead, out[2 * n + i] = 1;
+    }
+    return {};
+  }
+};
+
+/// A surface under a dome with that map.
+struct SkyScene : LitScene {
+  mutable std::atomic<uint64_t> asked = 0;  ///< points that the map was looked up at
+
+  explicit SkyScene(std::vector<Parameter> parameters,
+                    const glm::dmat4& from_light = glm::dmat4(1.0))
+      : LitScene(call("domelight", with_map(std::move(parameters)), from_light)) {
+    bindings = bind_shaders({&test.scene, test.camera.get(), &test.diagnostics,
+                             [this] { return std::make_shared<SkySampler>(&asked); }});
+  }
+  static std::vector<Parameter> with_map(std::vector<Parameter> parameters) {
+    parameters.push_back(text("texturename", "sky.tex"));
+    return parameters;
+  }
+};
 
 }  // namespace
 
@@ -139,28 +175,9 @@ TEST_CASE("under a dome of radiance 1 a matte surface shows 1, whichever way it 
 }
 
 TEST_CASE("a dome's map is looked up in the light's space and multiplies it", "[light]") {
-  /// (z of the direction + 1, whether x > 0, 1) as a latitude-longitude picture, for "sky.tex".
-  struct SkySampler : TextureSampler {
-    TextureResult sample(const TextureRequest& request, const TexturePoints& points,
-                         std::span<float> out) override {
-      if (request.file != "sky.tex") return {false, "no such file"};
-      const size_t n = points.s.size();
-      for (size_t i = 0; i < n; ++i) {
-        const bool ahead = points.s[i] > 0.25f && points.s[i] < 0.75f;
-        out[i] = std::cos(float(M_PI) * points.t[i]) + 1.0f, out[n + i] = ahead, out[2 * n + i] = 1;
-      }
-      return {};
-    }
-  };
   // The map's z points along camera -z, its x along camera y.
   const glm::dmat4 from_light({0, 1, 0, 0}, {-1, 0, 0, 0}, {0, 0, -1, 0}, {5, 6, 7, 1});
-  LitScene scene(
-      call("domelight",
-           {number("samples", 4096), number("intensity", 2), text("texturename", "sky.tex")},
-           from_light));
-  TestScene& test = scene.test;
-  scene.bindings = bind_shaders({&test.scene, test.camera.get(), &test.diagnostics,
-                                 [] { return std::make_shared<SkySampler>(); }});
+  const SkyScene scene({number("samples", 4096), number("intensity", 2)}, from_light);
   // The mean of 1 + cos with the cosine's density is 1 + 2/3; half lies ahead.
   const glm::dvec3 up = quadrature(scene.light(), {1, 2, 3}, {0, 0, -1});
   CHECK(up.x == Approx(2.0 * (5.0 / 3.0)).epsilon(2e-3));
@@ -168,6 +185,25 @@ TEST_CASE("a dome's map is looked up in the light's space and multiplies it", "[
   CHECK(up.z == Approx(2.0).epsilon(1e-4));
   CHECK(quadrature(scene.light(), {1, 2, 3}, {0, 1, 0}).y == Approx(2.0).epsilon(5e-3));
   CHECK(quadrature(scene.light(), {1, 2, 3}, {0, -1, 0}).y == Approx(0.0).margin(5e-3));
+}
+
+TEST_CASE("look-ups in a dome's map are counted, whoever asks", "[light]") {
+  // At rate cell 9 places at each of 25 vertices; apart from them 36, and one for each share.
+  for (const char* rate : {"cell", "sample"}) {
+    const SkyScene scene({number("samples", 9), text("shadowrate", rate)});
+    const auto grid = make_square(scene.test.scene.surfaces.front(), 4, 3.0f);
+    const GridPoints batch(*grid, scene.bindings->camera(), Footprints::over_micropolygons);
+    const SurfaceBinding& surface = scene.bindings->of(grid->attributes());
+    SurfaceColors colors;
+    ShadeCounters counters;
+    shade_surface(*scene.bindings, surface, batch.points(), FailedPoint::black, colors, counters);
+    CHECK(counters.texture_lookups == (std::string(rate) == "cell" ? 9u : 36u) * 25);
+    CHECK(counters.texture_lookups == scene.asked);
+  }
+  const SkyScene scene({number("samples", 9)});
+  (void)shares(scene, {1, 2, 3}, {0, 0, -1}, {{0.1f, 0.2f}, {0.6f, 0.7f}});
+  CHECK(scene.counters.texture_lookups == 2 + 2 * 36);  // the shares, and the means for them
+  CHECK(scene.counters.texture_lookups == scene.asked);
 }
 
 TEST_CASE("surface shaders gather the light of places", "[light]") {

@@ -107,6 +107,19 @@ inline std::shared_ptr<Grid> make_square(const Surface& surface, int count, floa
       [z](float u, float v) { return glm::vec3(2.0f * u - 1.0f, 2.0f * v - 1.0f, z); }, face);
 }
 
+/// Adds a motion key at shutter time `time` to a grid: where `move` takes each vertex from its
+/// place at the first key.
+inline void add_key(Grid& grid, float time,
+                    const std::function<glm::vec3(const glm::vec3&)>& move) {
+  const int key = grid.key_count();
+  grid.key_times.push_back(time);
+  grid.P_camera.resize(3 * size_t(key + 1) * grid.stride());
+  for (int k = 0; k < grid.vertex_count(); ++k) {
+    const glm::vec3 moved = move({grid.P(0, 0)[k], grid.P(0, 1)[k], grid.P(0, 2)[k]});
+    for (int axis = 0; axis < 3; ++axis) grid.P(key, axis)[k] = moved[axis];
+  }
+}
+
 /// Adds a primitive variable made from (u, v); returns its source for changes.
 inline std::shared_ptr<Parameter> add_primvar(
     Grid& grid, const std::string& name, ValueType type,
@@ -141,6 +154,19 @@ inline SurfaceColors run_surface(const ShaderBindings& bindings, const Grid& gri
   binding.surface.definition->surface(context, out);
   return out;
 }
+
+/// Points with a normal and nothing else.
+struct BarePoints {
+  Vec3Array P, N;
+  ShadingPoints points;
+
+  BarePoints(const std::vector<glm::vec3>& places, const glm::vec3& normal)
+      : P(int(places.size())), N(int(places.size())) {
+    for (int i = 0; i < P.count(); ++i) P.set(i, places[size_t(i)]), N.set(i, normal);
+    points.count = P.count();
+    points.P = P, points.N = N;
+  }
+};
 
 /// One sample a pixel over a row of pixels, and fragments put in by hand.
 struct TestBucket {

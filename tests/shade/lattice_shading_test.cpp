@@ -39,14 +39,7 @@ struct ModeScene : TestScene {
 
 /// Makes a grid move by `shift` in camera space over the shutter.
 void move(Grid& grid, const std::function<glm::vec3(const glm::vec3&)>& shift) {
-  const size_t stride = grid.stride();
-  grid.key_times = {0.0f, 1.0f};
-  grid.P_camera.resize(6 * stride);
-  for (size_t k = 0; k < size_t(grid.vertex_count()); ++k) {
-    const glm::vec3 P(grid.P(0, 0)[k], grid.P(0, 1)[k], grid.P(0, 2)[k]);
-    const glm::vec3 moved = P + shift(P);
-    for (int axis = 0; axis < 3; ++axis) grid.P(1, axis)[k] = moved[axis];
-  }
+  add_key(grid, 1.0f, [&](const glm::vec3& P) { return P + shift(P); });
 }
 
 /// A sample for each of `points`.
@@ -216,7 +209,8 @@ TEST_CASE("aas shades no more than ds, and as much where the blur promises nothi
     const auto a = test.colored_square(surface, 16), b = test.colored_square(surface, 16);
     move(*a, motion.shift), move(*b, motion.shift);
     const auto points = inner_points(*a, 12);
-    const auto aas = run(*make_shading("aas:share=0.95", frame), bucket_of(a, points)).counters.points_shaded;
+    const auto aas =
+        run(*make_shading("aas:share=0.95", frame), bucket_of(a, points)).counters.points_shaded;
     const auto ds = run(*make_shading("ds", frame), bucket_of(b, points)).counters.points_shaded;
     INFO(motion.what << " aas " << aas << " ds " << ds);
     CHECK(aas <= ds);
@@ -237,7 +231,8 @@ TEST_CASE("defocus widens cells in both directions") {
   REQUIRE(d < 0.5);
   REQUIRE(d > 0.2);
   const auto grid = test.colored_square(surface, 16);
-  const Run aas = run(*make_shading("aas:lens=0.95", frame), bucket_of(grid, inner_points(*grid, 12)));
+  const Run aas =
+      run(*make_shading("aas:lens=0.95", frame), bucket_of(grid, inner_points(*grid, 12)));
   const double side = std::ceil(raster_side * d);
   CHECK(double(aas.counters.points_shaded) == side * side);
 }

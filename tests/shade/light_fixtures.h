@@ -77,19 +77,6 @@ struct LitScene {
   }
 };
 
-/// Points with a normal and nothing else.
-struct BarePoints {
-  Vec3Array P, N;
-  ShadingPoints points;
-
-  BarePoints(const std::vector<glm::vec3>& places, const glm::vec3& normal)
-      : P(int(places.size())), N(int(places.size())) {
-    for (int i = 0; i < P.count(); ++i) P.set(i, places[size_t(i)]), N.set(i, normal);
-    points.count = P.count();
-    points.P = P, points.N = N;
-  }
-};
-
 /// The mean over places of the light of Cl max(0, N . L) at P, unblocked.
 inline glm::dvec3 quadrature(const BoundLight& light, const std::vector<glm::vec2>& places,
                              const glm::vec3& P, const glm::vec3& N) {

@@ -61,6 +61,21 @@ TEST_CASE("ray-traced lights with a rate of their own tell their share to the te
   CHECK_FALSE(scene.light().definition->distributed());
 }
 
+TEST_CASE("rays end a ten thousandth of the way short of the light, and no earlier", "[light]") {
+  // A lamp shade round a light at the origin, seen from 4 away: how far along it stands.
+  for (const auto& [along, passes] :
+       {std::pair{0.99995, true}, {0.99985, false}, {0.5, false}, {1.5, true}}) {
+    LitScene scene(traced("pointlight", "cell"));
+    scene.bindings->use_rays(std::make_shared<AnalyticBlocker>(
+        plane_blocker(4.0 * (1.0 - along), [](double, double) { return true; })));
+    const BarePoints at({{0.5f, 0.25f, 4}, {0, 0, 4}}, {0, 0, -1});
+    std::vector<float> share(2);
+    scene.light().definition->transmission(scene.light(), at.points, share);
+    CAPTURE(along);
+    CHECK(share == std::vector<float>(2, passes ? 1.0f : 0.0f));
+  }
+}
+
 TEST_CASE("a map's name wins over the attribute, and off is off", "[light]") {
   const LitScene map(call("pointlight", {text("shadowname", "map.z")}), "on");
   CHECK((map.light().shadow && !map.light().ray_traced));

@@ -215,14 +215,8 @@ TEST_CASE("under motion the shadow sticks to where the surface was at shutter op
   HalfShadow half("sample");
   const auto bindings = half.test.bind();
   TestBucket bucket = row_of_samples(half.surface(), 2, 10);
-  auto grid = std::make_shared<Grid>();
-  const auto still = make_square(half.surface(), 2, 3.0f);
-  grid->id = still->id, grid->surface = still->surface;
-  grid->u_count = grid->v_count = 2;
-  grid->N_camera = still->N_camera, grid->uv = still->uv, grid->st = still->st;
-  grid->key_times = {0.0f, 1.0f};
-  grid->P_camera = still->P_camera;
-  for (const float p : still->P_camera) grid->P_camera.push_back(p + 5.0f);
+  const auto grid = make_square(half.surface(), 2, 3.0f);
+  add_key(*grid, 1.0f, [](const glm::vec3& P) { return P + 5.0f; });
   bucket.grids = {grid};
   bucket.samples.t.assign(10, 0.75f);
   const Shaded shaded = shade(bindings, bucket);

@@ -61,6 +61,23 @@ TEST_CASE("a distant light without a direction is dark, not NaN") {
   CHECK(lit.samples.Cl[0] == glm::vec3(0.0f));
 }
 
+TEST_CASE("lights with an axis shine along it however long it is") {
+  for (const float length : {1e-23f, 1e-10f, 1.0f, 1e10f, 1e20f, 1e38f}) {
+    INFO(length);
+    const Lit distant("distantlight",
+                      {triple("from", ValueType::point, {0, 0, 0}),
+                       triple("to", ValueType::point, {0.6f * length, 0, 0.8f * length})},
+                      {{0, 0, 1}});
+    CHECK(glm::length(distant.samples.L[0] - glm::vec3(-0.6f, 0, -0.8f)) < 1e-6f);
+    CHECK(distant.samples.Cl[0] == glm::vec3(1.0f));
+    const Lit spot("spotlight",
+                   {triple("from", ValueType::point, {0, 0, 0}),
+                    triple("to", ValueType::point, {0.6f * length, 0, 0.8f * length})},
+                   {{1.2f, 0, 1.6f}});
+    CHECK(spot.samples.Cl[0].x == Approx(0.25));
+  }
+}
+
 TEST_CASE("a point light falls off with the square of the distance") {
   const Lit lit("pointlight",
                 {number("intensity", 8.0f), triple("from", ValueType::point, {1, 2, 3})},

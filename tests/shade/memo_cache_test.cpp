@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <list>
 #include <random>
-#include <set>
 
 #include "base/error.h"
-#include "shade/memo_cache.h"
+#include "bench/memo_cache.h"
 
 using namespace tessera;
 using Catch::Matchers::Contains;
@@ -78,16 +77,6 @@ TEST_CASE("memo caches of every size agree with a naive one") {
       CHECK(misses < names.size());
     }
   }
-}
-
-TEST_CASE("an unbounded memo shades every name once") {
-  UnboundedMemo memo;
-  std::set<uint64_t> seen;
-  size_t differing = 0;
-  for (const uint64_t name : stream(5, 20000, 0x9e3779b97f4a7c15u))
-    differing += memo.request(name) != seen.insert(name).second;
-  CHECK(differing == 0);
-  CHECK(seen.contains(0));
 }
 
 TEST_CASE("a memo cache without entries is refused") {

@@ -181,6 +181,31 @@ TEST_CASE("diffuse light over a cell is the mean of the clamped cosine") {
   }
 }
 
+TEST_CASE("the view turns with a step on the surface, and not at all where it is parallel") {
+  const glm::vec3 steps[] = {{0.01f, 0, 0}, {0, -0.02f, 0.01f}, {0.003f, 0.004f, -0.005f}};
+  for (const glm::vec3 P : {glm::vec3(0, 0, 4), {1, -2, 3}, {1e-3f, 0, 1}, {30, 20, 10}}) {
+    const BarePoints at({P}, {0, 0, -1});
+    ShadingPoints perspective = at.points, parallel = at.points;
+    const glm::vec3 from_eye = glm::normalize(P), forward(0, 0, 1);
+    perspective.I = Vec3Input::uniform(&from_eye.x);
+    parallel.I = Vec3Input::uniform(&forward.x);
+    for (const glm::vec3& dP : steps) {
+      const auto view = [&](double t) {
+        return glm::normalize(glm::dvec3(P) + t * glm::dvec3(dP));
+      };
+      const glm::dvec3 expected = (view(1e-4) - view(-1e-4)) / 2e-4;
+      CHECK(glm::length(glm::dvec3(view_change(perspective, 0, dP)) - expected) <
+            1e-5 * glm::length(expected) + 1e-9);
+      if (P.x != 0.0f) CHECK(view_change(parallel, 0, dP) == glm::vec3(0.0f));
+    }
+  }
+  const BarePoints in_eye({{0, 0, 0}}, {0, 0, -1});
+  ShadingPoints lost = in_eye.points;
+  const glm::vec3 forward(0, 0, 1);
+  lost.I = Vec3Input::uniform(&forward.x);
+  CHECK(view_change(lost, 0, {1, 2, 3}) == glm::vec3(0.0f));
+}
+
 TEST_CASE("normals that cannot be told spread nothing; bad ones are not hidden") {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float zero = 0.0f, one = 1.0f;

@@ -131,21 +131,14 @@ inline std::shared_ptr<Grid> make_ball(const Surface& surface, glm::vec3 centre,
   return grid;
 }
 
-/// Views of points of one surface, for lights to be asked about.
-struct LightPoints {
-  Vec3Array P, N;
+/// Points of one surface at shutter open, for lights to be asked about.
+struct LightPoints : BarePoints {
   std::vector<float> time;
   std::vector<int32_t> surface;
-  ShadingPoints points;
 
   LightPoints(const std::vector<glm::vec3>& at, const glm::vec3& normal, int of_surface = -1)
-      : P(int(at.size())),
-        N(int(at.size())),
-        time(at.size(), 0.0f),
-        surface(at.size(), of_surface) {
-    for (int i = 0; i < P.count(); ++i) P.set(i, at[size_t(i)]), N.set(i, normal);
-    points.count = P.count();
-    points.P = P, points.N = N, points.time = time.data(), points.surface = surface.data();
+      : BarePoints(at, normal), time(at.size(), 0.0f), surface(at.size(), of_surface) {
+    points.time = time.data(), points.surface = surface.data();
   }
 };
 

@@ -68,10 +68,7 @@ TEST_CASE("points lie in shading space where they are seen at shutter open") {
   SpaceScene test;
   const auto grid = make_grid(test.surface, 6, 5, bumpy);
   // A second key, far away: what moves later does not matter.
-  const size_t key = 3 * grid->stride();
-  grid->key_times = {0.0f, 1.0f};
-  grid->P_camera.resize(2 * key);
-  for (size_t k = 0; k < key; ++k) grid->P_camera[key + k] = 2.0f * grid->P_camera[k] + 1.0f;
+  add_key(*grid, 1.0f, [](const glm::vec3& P) { return 2.0f * P + 1.0f; });
   for (const ShadingSpaceSettings& settings : several_settings()) {
     const ShadingSpace space = test.space(*grid, settings);
     REQUIRE_FALSE(space.parametric());

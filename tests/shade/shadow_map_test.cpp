@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <filesystem>
 #include <random>
 
 #include "base/error.h"
@@ -39,6 +40,34 @@ std::vector<float> shares(const ShadowMap& map, const std::vector<Place>& places
   if (dPdx != glm::dvec3(0.0) || dPdy != glm::dvec3(0.0)) points.dPdx = x, points.dPdy = y;
   std::vector<float> share(places.size(), -1.0f);
   map.light_share(points, glm::inverse(camera_from_world), filter, share);
+  return share;
+}
+
+/// Makes a folder the working folder for as long as it lives.
+class WorkingFolder {
+ public:
+  explicit WorkingFolder(const std::string& folder) : before_(std::filesystem::current_path()) {
+    std::filesystem::current_path(folder);
+  }
+  ~WorkingFolder() { std::filesystem::current_path(before_); }
+
+ private:
+  std::filesystem::path before_;
+};
+
+/// A map whose every texel holds one depth.
+Image map_of_depth(double depth) {
+  return depth_image({}, [depth](const auto&, const auto&) { return depth; });
+}
+
+/// What the map of that name lets through to a point two units ahead that faces the camera.
+float share_ahead(FrameShadows& shadows, const std::string& name) {
+  const float P[] = {0.0f, 0.0f, 2.0f}, N[] = {0.0f, 0.0f, -1.0f};
+  ShadingPoints points;
+  points.count = 1;
+  points.P = Vec3Input::uniform(P), points.N = Vec3Input::uniform(N);
+  float share = -1.0f;
+  shadows.source(name, {"scene.rib", 7}).light_share(points, {}, {&share, 1});
   return share;
 }
 
@@ -272,24 +301,32 @@ TEST_CASE("what is no depth map is refused with what is missing") {
 
 TEST_CASE("a map is found on the search path, and a missing one is said once and shadows nothing") {
   const TemporaryFolder folder;
-  write_exr(folder.file("half.z"), depth_image({}, [](const auto&, const auto&) { return 1.0; }));
+  write_exr(folder.file("half.z"), map_of_depth(1.0));
   Diagnostics diagnostics;
   FrameShadows shadows({"/nowhere", folder.file("")}, glm::dmat4(1.0), diagnostics);
-  ShadowSource& found = shadows.source("half.z", {"scene.rib", 7});
-  ShadowSource& missing = shadows.source("none.z", {"scene.rib", 9});
+  const ShadowSource& found = shadows.source("half.z", {"scene.rib", 7});
+  shadows.source("none.z", {"scene.rib", 9});
   CHECK(&found == &shadows.source("half.z", {}));
   CHECK(diagnostics.lines().empty());  // nothing is read before it is needed
 
-  const float P[] = {0.0f, 0.0f, 2.0f}, N[] = {0.0f, 0.0f, -1.0f};
-  ShadingPoints points;
-  points.count = 1;
-  points.P = Vec3Input::uniform(P), points.N = Vec3Input::uniform(N);
-  float share = -1.0f;
-  found.light_share(points, {}, {&share, 1});
-  CHECK(share == 0.0f);
-  for (int round = 0; round < 2; ++round) missing.light_share(points, {}, {&share, 1});
-  CHECK(share == 1.0f);
+  CHECK(share_ahead(shadows, "half.z") == 0.0f);
+  for (int round = 0; round < 2; ++round) CHECK(share_ahead(shadows, "none.z") == 1.0f);
   REQUIRE(diagnostics.lines().size() == 1);
   CHECK_THAT(diagnostics.lines()[0],
              Catch::StartsWith("scene.rib:9:") && Catch::Contains("none.z"));
+}
+
+TEST_CASE("a map in the working folder, where frames write theirs, goes before one elsewhere") {
+  const TemporaryFolder beside_scene, working;
+  write_exr(beside_scene.file("light.z"), map_of_depth(1.0));
+  write_exr(working.file("light.z"), map_of_depth(3.0));
+  Diagnostics diagnostics;
+  FrameShadows from_elsewhere({beside_scene.file("")}, glm::dmat4(1.0), diagnostics);
+  CHECK(share_ahead(from_elsewhere, "light.z") == 0.0f);
+
+  const WorkingFolder now(working.file(""));
+  FrameShadows shadows({beside_scene.file("")}, glm::dmat4(1.0), diagnostics);
+  CHECK(share_ahead(shadows, "light.z") == 1.0f);
+  CHECK(share_ahead(shadows, beside_scene.file("light.z")) == 0.0f);
+  CHECK(diagnostics.lines().empty());
 }
