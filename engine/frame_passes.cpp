@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cameras/camera_matrices.h"
+#include "dice/whole_scene.h"
 #include "engine/bucket_queue.h"
 #include "engine/overrides.h"
 #include "engine/version.h"
@@ -115,6 +116,9 @@ FramePasses::FramePasses(const Scene& scene, const Settings& settings, Diagnosti
   if (plan_.displacement) displacer_ = make_displacer(bindings_);
   const DiceSettings dice = dice_settings(plan_, buckets_, settings, displacer_.get(), bindings_);
   grids_ = make_grid_source(scene_, camera_, dice, diagnostics);
+  if (wants_emitters(*bindings_)) {
+    use_emitters(*bindings_, dice_emitters(scene_, camera_, dice, diagnostics));
+  }
   if (const auto rays = ray_tracer(plan_, scene_, camera_, settings, dice, threads_, diagnostics)) {
     use_rays(*bindings_, rays);
     statistics_.add(*rays);

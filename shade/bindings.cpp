@@ -220,19 +220,22 @@ void ShaderBindings::use_rays(std::shared_ptr<const RayTracer> rays) {
   bounce_ = rays_ ? std::make_shared<const BounceRadiance>(*this, *rays_) : nullptr;
   light_services_.rays = rays_.get();
   light_services_.bounce = bounce_.get();
-  for (size_t i = 0; rays_ && i < lights_.size(); ++i) {
-    if (lights_[i] && setup_.scene->lights[i].area) make_emitter(*rays_, int(i), *lights_[i]);
+}
+
+void ShaderBindings::use_emitters(std::span<const std::shared_ptr<const Grid>> grids) {
+  for (size_t i = 0; i < lights_.size(); ++i) {
+    if (lights_[i] && setup_.scene->lights[i].area) make_emitter(grids, int(i), *lights_[i]);
   }
 }
 
-bool ShaderBindings::wants_rays() const {
-  // Area lights need them to know where their surfaces are.
-  const auto wants = [](const std::optional<BoundLight>& light, const Light& of_scene) {
-    return light && (light->ray_traced || of_scene.area);
-  };
+bool ShaderBindings::wants_emitters() const {
   for (size_t i = 0; i < lights_.size(); ++i)
-    if (wants(lights_[i], setup_.scene->lights[i])) return true;
+    if (lights_[i] && setup_.scene->lights[i].area) return true;
   return false;
+}
+
+bool ShaderBindings::wants_rays() const {
+  return std::ranges::any_of(lights_, [](const auto& light) { return light && light->ray_traced; });
 }
 
 bool ShaderBindings::has_effect(RayEffect effect) const {
@@ -247,8 +250,14 @@ std::shared_ptr<ShaderBindings> bind_shaders(const ShadeSetup& setup) {
 
 bool wants_rays(const ShaderBindings& bindings) { return bindings.wants_rays(); }
 
+bool wants_emitters(const ShaderBindings& bindings) { return bindings.wants_emitters(); }
+
 bool has_effect(const ShaderBindings& bindings, RayEffect effect) {
   return bindings.has_effect(effect);
+}
+
+void use_emitters(ShaderBindings& bindings, std::span<const std::shared_ptr<const Grid>> grids) {
+  bindings.use_emitters(grids);
 }
 
 void use_rays(ShaderBindings& bindings, std::shared_ptr<const RayTracer> rays) {

@@ -13,12 +13,11 @@ using namespace tessera::test;
 
 namespace {
 
-/// An area light on one surface, and a tracer that knows it and is blocked by nothing else.
+/// An area light on one surface, with the grids that shine. Nothing is in the way.
 struct AreaScene {
   TestScene test;
   std::shared_ptr<ShaderBindings> bindings;
-  std::shared_ptr<AnalyticBlocker> rays = std::make_shared<AnalyticBlocker>(
-      [](const auto&, const auto&) { return std::numeric_limits<double>::infinity(); });
+  std::vector<std::shared_ptr<const Grid>> grids;
   const Surface* shining = nullptr;
   const Surface* lit = nullptr;
 
@@ -35,6 +34,7 @@ struct AreaScene {
     test.camera = std::make_unique<Camera>(test.scene.camera);
     bindings = bind_shaders({&test.scene, test.camera.get(), &test.diagnostics, nullptr});
   }
+  void shine() { bindings->use_emitters(grids); }
   const BoundLight& light() const { return *bindings->of(*lit->attributes).lights.at(0); }
 };
 
@@ -57,10 +57,10 @@ TEST_CASE("an area light on a rectangle is a rectanglelight", "[light]") {
                                 from_light));
   AreaScene area({number("intensity", 2.0f), number("samples", 64)});
   const LightExtent& extent = rectangle.light().extent;
-  area.rays->seen_grids = {
+  area.grids = {
       rectangle_grid(*area.shining, 16, extent.centre, extent.half_axes[0], extent.half_axes[1])};
   area.bind();
-  area.bindings->use_rays(area.rays);
+  area.shine();
   const BoundLight& light = area.light();
   CHECK(glm::distance(light.extent.centre, extent.centre) < 1e-6f);
   CHECK(light.extent.area_root == Approx(extent.area_root));
@@ -81,9 +81,9 @@ TEST_CASE("outward is what the grid says, and both sides shine on request", "[li
       AreaScene area({number("doublesided", both)});
       const auto grid = rectangle_grid(*area.shining, 2, {0, 0, 2}, {1, 0, 0}, {0, 1, 0});
       grid->normal_sign = sign;
-      area.rays->seen_grids = {grid};
+      area.grids = {grid};
       area.bind();
-      area.bindings->use_rays(area.rays);
+      area.shine();
       const bool forward = quadrature(area.light(), {0, 0, 5}, {0, 0, -1}).x > 0.0;
       const bool backward = quadrature(area.light(), {0, 0, -1}, {0, 0, 1}).x > 0.0;
       CHECK(forward == (both != 0.0f || sign > 0.0f));
@@ -155,9 +155,9 @@ TEST_CASE("points of one batch see a moving area light each at its own time", "[
   grid->key_times = {0.0f, 1.0f};
   const AlignedVector<float> still = grid->P_camera;
   for (const float p : still) grid->P_camera.push_back(p + 2.0f);
-  area.rays->seen_grids = {grid};
+  area.grids = {grid};
   area.bind();
-  area.bindings->use_rays(area.rays);
+  area.shine();
   BarePoints at({{0, 0, 6}, {0, 0, 6}, {0, 0, 6}}, {0, 0, -1});
   const std::vector<float> times{0.0f, 0.5f, 1.0f};
   at.points.time = times.data();
@@ -183,9 +183,9 @@ TEST_CASE("triangles without area are left out, and light without any is refused
   CHECK(Emitter({grid}).triangle_count() == 6);
   area.bind();
   const auto refusal = [&](std::shared_ptr<Grid> only) -> std::string {
-    area.rays->seen_grids = {std::move(only)};
+    area.grids = {std::move(only)};
     try {
-      area.bindings->use_rays(area.rays);
+      area.shine();
     } catch (const Error& error) {
       return error.what();
     }
