@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "dice/dice.h"
 #include "hide/hide.h"
+#include "scenes/scene_motion.h"
 #include "shade/shade.h"
 
 namespace tessera {
@@ -17,14 +18,6 @@ namespace {
 /// Largest bucket side; beyond it a bucket's samples outgrow any cache for no gain.
 constexpr int max_bucket_size = 4096;
 constexpr int max_grid_size = 256;
-
-bool shutter_opens(const CameraSettings& camera) {
-  return camera.shutter_close > camera.shutter_open;
-}
-
-bool surface_moves(const Surface& surface) {
-  return surface.world_from_object.moves() || surface.geometry->key_times.size() > 1;
-}
 
 bool names_a_texture(const ShaderCall& shader) {
   return std::any_of(shader.parameters.begin(), shader.parameters.end(), [](const Parameter& p) {

@@ -201,16 +201,26 @@ TEST_CASE("triangles without area are left out, and light without any is refused
   }
 }
 
-TEST_CASE("an area light that no surface is part of is dark and says so", "[light]") {
-  TestScene test;
-  test.add_light(call("arealight"), true);
-  test.add_light(call("arealight"));
-  const Surface& surface = test.add_surface("matte");
-  const auto bindings = test.bind();
-  CHECK(bindings->of(*surface.attributes).lights.empty());
-  CHECK_FALSE(wants_rays(*bindings));
-  REQUIRE(test.diagnostics.lines().size() == 2);
-  CHECK(test.warned("scene.rib:7: warning: no surface is part of area light \"arealight\""));
+TEST_CASE("an area light that no surface is part of is refused", "[light]") {
+  for (const bool area : {true, false}) {
+    TestScene test;
+    test.add_light(call("arealight"), area);
+    test.add_surface("matte");
+    CHECK_THROWS_WITH(test.bind(),
+                      Catch::StartsWith("scene.rib:7: light \"arealight\" can never shine") &&
+                          Catch::Contains("no surface is part of it"));
+  }
+}
+
+TEST_CASE("rays are asked for by the shadows of area lights only", "[light]") {
+  for (const char* shadow : {"", "off"}) {
+    AreaScene area({});
+    area.test.scene.lights.back().shadow = shadow;
+    area.bind();
+    CHECK(wants_emitters(*area.bindings));
+    CHECK(wants_rays(*area.bindings) == (shadow != std::string("off")));
+  }
+  CHECK_FALSE(wants_emitters(*LitScene(call("rectanglelight")).bindings));
 }
 
 TEST_CASE("area light shaders by other names are area lights, said once", "[light]") {
@@ -218,7 +228,7 @@ TEST_CASE("area light shaders by other names are area lights, said once", "[ligh
   area.bind();
   CHECK(area.light().definition->name == "arealight");
   CHECK(area.test.warned("\"finite\" is taken as an arealight"));
-  // Without rays it is not known where its surfaces are.
+  // Until they are handed over it is not known where its surfaces are.
   CHECK(quadrature(area.light(), {0, 0, 5}, {0, 0, -1}).x == 0.0);
 }
 
