@@ -140,14 +140,34 @@ std::vector<Chunk> chunks_of_surface(SurfaceContext& context, size_t most_microp
 
 bool is_emitter(const Surface& surface) { return surface.attributes->area_light.has_value(); }
 
-void dice_by_shape(SurfaceContext& context, bool flat) {
-  const size_t least = flat                ? 1
-                       : context.displacer ? emitter_micropolygons_of_displaced
-                                           : emitter_micropolygons_of_curved;
-  const double each = double(least) / double(std::max(context.patches->patch_count(), 1u));
-  context.rate.shape = ShapeRate{.turn_radians = emitter_turn_radians,
-                                 .least_segments = std::max(1, int(std::sqrt(each)))};
+/// `times` as long as those of dice_emitters() where few surfaces shine.
+void dice_by_shape(SurfaceContext& context, size_t least_micropolygons, float times) {
+  const double least = double(least_micropolygons) / double(times * times);
+  const double of_patch = least / double(std::max(context.patches->patch_count(), 1u));
+  context.rate.shape = ShapeRate{.turn_radians = emitter_turn_radians * times,
+                                 .least_segments = std::max(1, int(std::sqrt(of_patch)))};
   context.rate.max_grid_size = emitter_grid_size;
+}
+
+/// How much longer the micropolygons of so many surfaces that are not flat are.
+float coarseness(size_t curved_surfaces) {
+  const double share = double(curved_surfaces) / double(emitters_at_full_rate);
+  return float(std::sqrt(std::clamp(share, 1.0, double(emitter_most_area))));
+}
+
+/// All that shines and is not flat.
+void dice_curved_emitters_by_shape(std::vector<SurfaceContext>& contexts) {
+  std::vector<char> curved(contexts.size());
+  tbb::parallel_for(size_t(0), contexts.size(), [&](size_t s) {
+    const SurfaceContext& context = contexts[s];
+    curved[s] = context.patches && is_emitter(*context.surface) && !is_flat(context);
+  });
+  const float times = coarseness(size_t(std::ranges::count(curved, 1)));
+  for (size_t s = 0; s < contexts.size(); ++s) {
+    const size_t least = contexts[s].displacer ? emitter_micropolygons_of_displaced
+                                               : emitter_micropolygons_of_curved;
+    if (curved[s]) dice_by_shape(contexts[s], least, times);
+  }
 }
 
 /// Largest extent of the scene along an axis of camera space, at shutter open; 1 when it has none.
@@ -213,13 +233,10 @@ std::vector<std::shared_ptr<const Grid>> dice_whole_scene(const Scene& scene, co
       make_surface_contexts(scene, camera, projection, settings, topologies, diagnostics);
   const float least = extent_of(contexts) * nearest_part_of_extent;
   projection.turn_to_eye(std::max(least, std::numeric_limits<float>::min()));
-  tbb::parallel_for(size_t(0), contexts.size(), [&](size_t s) {
-    SurfaceContext& context = contexts[s];
+  for (SurfaceContext& context : contexts) {
     context.rate.motion_factor = context.rate.focus_factor = 0;
-    if (context.patches && is_emitter(scene.surfaces[s]) && !is_flat(context)) {
-      dice_by_shape(context, false);
-    }
-  });
+  }
+  dice_curved_emitters_by_shape(contexts);
   return dice_all(contexts, most_micropolygons, diagnostics);
 }
 
@@ -230,8 +247,9 @@ std::vector<std::shared_ptr<const Grid>> dice_emitters(const Scene& scene, const
   TopologyCache topologies;
   std::vector<SurfaceContext> contexts = make_surface_contexts(scene, camera, projection, settings,
                                                                topologies, diagnostics, is_emitter);
+  dice_curved_emitters_by_shape(contexts);
   for (SurfaceContext& context : contexts) {
-    if (context.patches) dice_by_shape(context, is_flat(context));
+    if (context.patches && !context.rate.shape) dice_by_shape(context, 1, 1);
   }
   return dice_all(contexts, most_micropolygons_of_surface, diagnostics);
 }

@@ -37,10 +37,14 @@ std::vector<std::shared_ptr<const Grid>> dice_whole_scene(
 
 /// Micropolygons of dice_emitters() around a full turn.
 inline constexpr int emitter_segments_of_turn = 128;
-/// Micropolygons that it dices a surface that is not flat, and one that is displaced, into about, at
-/// least: for what shows no turn where it is sampled.
+/// Micropolygons that it dices a surface that is not flat, and one that is displaced, into about,
+/// at least: for what shows no turn where it is sampled.
 inline constexpr size_t emitter_micropolygons_of_curved = size_t(1) << 10;
 inline constexpr size_t emitter_micropolygons_of_displaced = size_t(1) << 14;
+/// So many surfaces that are not flat are diced so. Of more of them micropolygons are as much
+/// larger, so that a thousand lamps take no more, but no more than `emitter_most_area` times.
+inline constexpr size_t emitters_at_full_rate = 64;
+inline constexpr int emitter_most_area = 16;
 
 /// Dices every surface of the scene that is part of an area light, by shape alone: where the camera
 /// is, its format and all rates mean nothing (but for rounding: positions are in camera space).

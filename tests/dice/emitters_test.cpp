@@ -234,3 +234,17 @@ TEST_CASE("emitters: displaced surfaces are diced finely all over, for rays too"
   CHECK(micropolygons_of(grids) == emitter_micropolygons_of_displaced);
   CHECK(same_bits(grids, whole(scene)));
 }
+
+TEST_CASE("emitters: many lamps are coarser each, within bounds", "[emitters]") {
+  for (const auto& [count, around] : {std::pair{size_t(64), 128}, {256, 64}, {1100, 32}}) {
+    DiceScene scene;
+    for (size_t k = 0; k < count; ++k) {
+      scene.add(quadric(Quadric::Kind::sphere, {0.1, -0.1, 0.1, 360}),
+                at_distance(10 + 0.02 * double(k)), shining());
+    }
+    const Grids grids = emitters(scene);
+    CHECK(micropolygons_of(grids) == count * size_t(around * around / 2));
+    CHECK(area_of(grids) == Approx(double(count) * 4 * pi * 0.01).epsilon(0.01));
+    if (count == 256) CHECK(same_bits(grids, whole(scene)));
+  }
+}
