@@ -46,9 +46,8 @@ void ShapeTurn::add_row(std::span<const glm::vec3> row) {
     const double turn = turn_between(before, after, least);
     sum += turn, longest = std::max(longest, turn);
   }
-  // n pieces show n - 1 turns: half a turn is missing at either end.
-  const int pieces = int(row.size()) - 1;
-  if (pieces > 1) add(sum * pieces / (pieces - 1), longest, pieces);
+  // n pieces show n - 1 turns, half a turn is missing at either end: n times the longest has them.
+  add(sum, longest, int(row.size()) - 1);
 }
 
 void ShapeTurn::add_strip(std::span<const glm::vec3> row, std::span<const glm::vec3> beside) {

@@ -108,17 +108,25 @@ TEST_CASE("emitters: curved surfaces have their area within a thousandth", "[emi
 }
 
 TEST_CASE("emitters: a twisted patch has its area", "[emitters]") {
-  // z = x y over [-1, 1]^2, straight along u and along v.
-  const std::vector<glm::vec3> corners{{-1, -1, 1}, {1, -1, -1}, {-1, 1, -1}, {1, 1, 1}};
-  long double expected = 0;
-  constexpr int n = 400;
-  for (int j = 0; j < n; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const long double x = (2 * i + 1.0L) / n - 1, y = (2 * j + 1.0L) / n - 1;
-      expected += std::sqrt(1 + x * x + y * y) * 4 / (n * n);
+  // z = h x y over [-1, 1]^2, straight along u and along v. Its normal turns by 2 atan(h) in the
+  // middle.
+  for (const float h : {1.0f, 8.0f}) {
+    DiceScene scene;
+    scene.add(geometry(PatchMesh{}, {{-1, -1, h}, {1, -1, -h}, {-1, 1, -h}, {1, 1, h}}),
+              at_distance(20), shining());
+    long double expected = 0;
+    constexpr int n = 400;
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const long double x = (2 * i + 1.0L) / n - 1, y = (2 * j + 1.0L) / n - 1;
+        expected += std::sqrt(1 + h * h * (x * x + y * y)) * 4 / (n * n);
+      }
     }
+    const Grids grids = emitters(scene);
+    CHECK(area_of(grids) == Approx(double(expected)).epsilon(1e-3));
+    const double across = std::max(32.0, 2 * std::atan(double(h)) / (2 * pi) * 128 - 1);
+    CHECK(double(micropolygons_of(grids)) >= across * across);
   }
-  CHECK(area_of_emitter(geometry(PatchMesh{}, corners)) == Approx(double(expected)).epsilon(1e-3));
 }
 
 TEST_CASE("emitters: subdivision surfaces have the area of ever finer dices", "[emitters]") {

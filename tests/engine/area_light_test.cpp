@@ -45,8 +45,22 @@ double mean_red(const std::string& rib) {
   return sum / double(red.size());
 }
 
-const std::vector<std::pair<int, int>> formats{{1, 1}, {3, 2}, {16, 12}};
-constexpr double distances[] = {10, 30, 100, 400};
+struct View {
+  int width, height;
+  double distance;
+};
+constexpr View views[] = {{1, 1, 10}, {1, 1, 100}, {1, 1, 400}, {8, 6, 10}, {8, 6, 400}};
+
+/// With and without shadows, from near and from far.
+void check_all_views(const std::string& shape, double expected, double tolerance) {
+  for (const View& view : views) {
+    for (const char* shadow : {"off", "on"}) {
+      CAPTURE(view.width, view.distance, shadow);
+      CHECK(mean_red(scene(view.width, view.height, view.distance, shadow, shape)) ==
+            Approx(expected).epsilon(tolerance));
+    }
+  }
+}
 
 }  // namespace
 
@@ -57,14 +71,7 @@ TEST_CASE("a ball that shines lights as its radiance says, however small it is s
   const double expected = intensity * radius * radius / d2 * cosine;
   const std::string ball = fmt::format("Translate {} {} {}\nSphere {} -{} {} 360\n", lamp.x, lamp.y,
                                        lamp.z, radius, radius, radius);
-  for (const auto& [width, height] : formats) {
-    for (const double distance : distances) {
-      INFO(width << " x " << height << ", " << distance);
-      for (const char* shadow : {"off", "on"})
-        CHECK(mean_red(scene(width, height, distance, shadow, ball)) ==
-              Approx(expected).epsilon(2e-3));
-    }
-  }
+  check_all_views(ball, expected, 2e-3);
 }
 
 TEST_CASE("a bowl that shines is not in its own way", "[arealight]") {
@@ -77,12 +84,5 @@ TEST_CASE("a bowl that shines is not in its own way", "[arealight]") {
   const std::string shape =
       fmt::format("Translate {} {} {}\nRotate {} 0 1 0\nReverseOrientation\nSphere {} -{} 0 360\n",
                   lamp.x, lamp.y, lamp.z, degrees, bowl, bowl);
-  for (const auto& [width, height] : formats) {
-    for (const double distance : distances) {
-      INFO(width << " x " << height << ", " << distance);
-      for (const char* shadow : {"off", "on"})
-        CHECK(mean_red(scene(width, height, distance, shadow, shape)) ==
-              Approx(expected).epsilon(4e-3));
-    }
-  }
+  check_all_views(shape, expected, 4e-3);
 }
