@@ -2,6 +2,7 @@
 /// How finely curves and pieces are diced: their size on the raster against the size that a
 /// micropolygon may have, which grows with blur.
 
+#include <optional>
 #include <span>
 
 #include "dice/least_blur.h"
@@ -50,6 +51,12 @@ struct RowSegments {
 };
 RowSegments segments_of(const RowSize& size, const DiceStep& step);
 
+/// Dicing by shape, whatever is seen of it (dice/shape_rate.h).
+struct ShapeRate {
+  float turn_radians = 0.1f;  ///< that a micropolygon may turn along u or v
+  int least_segments = 1;     ///< of every curve and piece, at most DiceRate::max_grid_size
+};
+
 /// What sizes are measured with.
 struct DiceRate {
   const RasterProjection* projection = nullptr;
@@ -58,7 +65,8 @@ struct DiceRate {
   /// GeometricApproximation: blur of 16 pixels over the factor leaves the area of a micropolygon
   /// as it is, more of it lets it grow in proportion. 0: never.
   float motion_factor = 0, focus_factor = 0;
-  int max_grid_size = 32;  ///< micropolygons along u and v
+  int max_grid_size = 32;          ///< micropolygons along u and v
+  std::optional<ShapeRate> shape;  ///< if given, sizes on the raster and blur mean nothing
   /// Pieces are not split below this parameter width, whatever their size.
   static constexpr double min_width = 1.0 / 4096;
 

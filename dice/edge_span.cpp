@@ -4,6 +4,7 @@
 #include <array>
 
 #include "dice/passage.h"
+#include "dice/shape_rate.h"
 
 namespace tessera {
 
@@ -27,20 +28,54 @@ int EdgeSpan::vertex_at(int i, int count) const {
 
 namespace {
 
-/// Segments of [t0, t1] of a curve, from its own samples at every key and nothing else.
-RowSegments segments_of(const EdgeSpan& span, const Patch& patch, const DiceRate& rate) {
-  constexpr int most_pieces = 8;
-  alignas(64) float t[16] = {}, u[16] = {}, v[16] = {}, x[16], y[16], z[16];
-  std::array<glm::vec3, most_pieces + 1> P;
-  RowSize size;
-  size.pieces = std::min(patch.sample_segments(), most_pieces);
-  const size_t count = size_t(size.pieces) + 1;
-  for (size_t i = 0; i < count; ++i) {
-    const double at = span.t0 + (span.t1 - span.t0) * double(i) / size.pieces;
-    const glm::dvec2 uv = span.curve.parameters(at);
-    t[i] = float(at), u[i] = float(uv.x), v[i] = float(uv.y);
+constexpr int most_pieces = 8;
+
+/// Samples of [t0, t1] of a curve, evenly in t.
+class SpanSamples {
+ public:
+  SpanSamples(const EdgeSpan& span, const Patch& patch)
+      : span_(span), patch_(patch), pieces_(std::min(patch.sample_segments(), most_pieces)) {
+    for (size_t i = 0; i <= size_t(pieces_); ++i) {
+      const double at = span.t0 + (span.t1 - span.t0) * double(i) / pieces_;
+      const glm::dvec2 uv = span.curve.parameters(at);
+      t_[i] = float(at), u_[i] = float(uv.x), v_[i] = float(uv.y);
+    }
   }
-  const PatchOutput out{{x, y, z}, {}};
+  int pieces() const { return pieces_; }
+
+  std::span<const glm::vec3> at_key(int key) {
+    alignas(64) float x[16], y[16], z[16];
+    const PatchOutput out{{x, y, z}, {}};
+    const size_t count = size_t(pieces_) + 1;
+    if (span_.curve.is_side()) {
+      patch_.side(key, int(span_.curve.line), span_.curve.flip, {t_, count}, out);
+    } else {
+      patch_.points(key, {u_, count}, {v_, count}, out);
+    }
+    for (size_t i = 0; i < count; ++i) P_camera_[i] = {x[i], y[i], z[i]};
+    return {P_camera_.data(), count};
+  }
+
+ private:
+  const EdgeSpan& span_;
+  const Patch& patch_;
+  int pieces_;
+  alignas(64) float t_[16] = {}, u_[16] = {}, v_[16] = {};
+  std::array<glm::vec3, most_pieces + 1> P_camera_;
+};
+
+RowSegments segments_by_shape(const EdgeSpan& span, const Patch& patch, const DiceRate& rate) {
+  SpanSamples samples(span, patch);
+  ShapeTurn turn;
+  for (int key = 0; key < rate.key_count(); ++key) turn.add_row(samples.at_key(key));
+  return turn.segments(*rate.shape);
+}
+
+RowSegments segments_on_raster(const EdgeSpan& span, const Patch& patch, const DiceRate& rate) {
+  SpanSamples samples(span, patch);
+  RowSize size;
+  size.pieces = samples.pieces();
+  const size_t count = size_t(size.pieces) + 1;
   const auto add_row = [&](const auto& length_of) {
     RowLength row;
     for (size_t i = 1; i < count; ++i) row.add(length_of(i - 1, i));
@@ -50,20 +85,20 @@ RowSegments segments_of(const EdgeSpan& span, const Patch& patch, const DiceRate
   LeastBlur blur;
   Passage passage(projection);
   for (int key = 0; key < rate.key_count(); ++key) {
-    if (span.curve.is_side()) {
-      patch.side(key, int(span.curve.line), span.curve.flip, {t, count}, out);
-    } else {
-      patch.points(key, {u, count}, {v, count}, out);
-    }
-    for (size_t i = 0; i < count; ++i) P[i] = {x[i], y[i], z[i]};
+    const std::span<const glm::vec3> P = samples.at_key(key);
     add_row([&](size_t a, size_t b) { return projection.segment_length(P[a], P[b]); });
-    if (rate.key_count() > 1) passage.add_key({P.data(), count});
+    if (rate.key_count() > 1) passage.add_key(P);
     if (passage.matters()) add_row([&](size_t a, size_t b) { return passage.length(a, b); });
     if (!rate.follows_blur()) continue;
-    blur.add_key(projection, rate.key_times[size_t(key)], {P.data(), count});
+    blur.add_key(projection, rate.key_times[size_t(key)], P);
     for (size_t i = 2; i < count; ++i) size.add_bend(projection, P[i - 2], P[i - 1], P[i]);
   }
   return segments_of(size, rate.step_under(blur));
+}
+
+/// Segments of [t0, t1] of a curve, from its own samples at every key and nothing else.
+RowSegments segments_of(const EdgeSpan& span, const Patch& patch, const DiceRate& rate) {
+  return rate.shape ? segments_by_shape(span, patch, rate) : segments_on_raster(span, patch, rate);
 }
 
 }  // namespace

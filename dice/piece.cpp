@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dice/passage.h"
+#include "dice/shape_rate.h"
 
 namespace tessera {
 
@@ -27,7 +28,18 @@ struct PieceSamples {
   size_t side() const { return size_t(pieces) + 1; }
   size_t index(int i, int j) const { return size_t(j) * side() + size_t(i); }
   const glm::vec3& at(int i, int j) const { return P_camera[index(i, j)]; }
+  std::span<const glm::vec3> row(int j) const { return {&at(0, j), side()}; }
   std::span<const glm::vec3> all() const { return {P_camera.data(), side() * side()}; }
+
+  /// With u and v exchanged.
+  PieceSamples transposed() const {
+    PieceSamples result;
+    result.pieces = pieces;
+    for (int j = 0; j <= pieces; ++j) {
+      for (int i = 0; i <= pieces; ++i) result.P_camera[index(j, i)] = at(i, j);
+    }
+    return result;
+  }
 
   void take(const Patch& patch, const ParameterRect& r, int key) {
     constexpr int stride = 16;
@@ -75,19 +87,42 @@ struct PieceSize {
   }
 };
 
-}  // namespace
+struct PieceSegments {
+  RowSegments in_u, in_v;
+};
 
-void measure(Piece& piece, PatchCache& cache, const DiceRate& rate) {
-  const Patch* patch = cache.get(piece.patch);
+/// The largest turn of the rows, and of the normals along them.
+void add_turns(const PieceSamples& samples, ShapeTurn& along) {
+  for (int row = 0; row <= samples.pieces; ++row) {
+    along.add_row(samples.row(row));
+    along.add_strip(samples.row(row), samples.row(row < samples.pieces ? row + 1 : row - 1));
+  }
+}
+
+PieceSegments segments_by_shape(const Patch& patch, const ParameterRect& rect,
+                                const DiceRate& rate) {
+  PieceSamples samples;
+  samples.pieces = std::min(patch.sample_segments(), most_sample_pieces);
+  ShapeTurn along_u, along_v;
+  for (int key = 0; key < rate.key_count(); ++key) {
+    samples.take(patch, rect, key);
+    add_turns(samples, along_u);
+    add_turns(samples.transposed(), along_v);
+  }
+  return {along_u.segments(*rate.shape), along_v.segments(*rate.shape)};
+}
+
+PieceSegments segments_on_raster(const Patch& patch, const ParameterRect& rect,
+                                 const DiceRate& rate) {
   const RasterProjection& projection = *rate.projection;
   PieceSamples samples;
   PieceSize size;
   size.along_u.pieces = size.along_v.pieces = samples.pieces =
-      std::min(patch->sample_segments(), most_sample_pieces);
+      std::min(patch.sample_segments(), most_sample_pieces);
   LeastBlur blur;
   Passage passage(projection);
   for (int key = 0; key < rate.key_count(); ++key) {
-    samples.take(*patch, piece.rect, key);
+    samples.take(patch, rect, key);
     size.add_rows(samples, [&](size_t a, size_t b) {
       return projection.segment_length(samples.P_camera[a], samples.P_camera[b]);
     });
@@ -100,7 +135,15 @@ void measure(Piece& piece, PatchCache& cache, const DiceRate& rate) {
     blur.add_key(projection, rate.key_times[size_t(key)], samples.all());
   }
   const DiceStep step = rate.step_under(blur);
-  const RowSegments in_u = segments_of(size.along_u, step), in_v = segments_of(size.along_v, step);
+  return {segments_of(size.along_u, step), segments_of(size.along_v, step)};
+}
+
+}  // namespace
+
+void measure(Piece& piece, PatchCache& cache, const DiceRate& rate) {
+  const Patch& patch = *cache.get(piece.patch);
+  const auto [in_u, in_v] = rate.shape ? segments_by_shape(patch, piece.rect, rate)
+                                       : segments_on_raster(patch, piece.rect, rate);
   piece.u_count = in_u.count, piece.u_most = in_u.most;
   piece.v_count = in_v.count, piece.v_most = in_v.most;
   // Never fewer than the vertices of an edge, or the grid could not touch all of them.

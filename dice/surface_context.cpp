@@ -116,10 +116,12 @@ std::vector<SurfaceContext> make_surface_contexts(const Scene& scene, const Came
                                                   const RasterProjection& projection,
                                                   const DiceSettings& settings,
                                                   TopologyCache& topologies,
-                                                  Diagnostics& diagnostics) {
+                                                  Diagnostics& diagnostics,
+                                                  bool (*wanted)(const Surface&)) {
   std::vector<SurfaceContext> contexts(scene.surfaces.size());
   std::vector<std::string> failures(scene.surfaces.size());
   tbb::parallel_for(size_t(0), scene.surfaces.size(), [&](size_t s) {
+    if (wanted && !wanted(scene.surfaces[s])) return;
     try {
       contexts[s] = make_surface_context(scene.surfaces[s], uint32_t(s), camera, projection,
                                          settings, topologies);

@@ -45,12 +45,14 @@ class TopologyCache {
 };
 
 /// One a surface of the scene, made in parallel. Those that cannot be evaluated are reported and
-/// stay without patches. All arguments must outlive the result.
+/// stay without patches; so do those that are not `wanted`, if given. All arguments must outlive
+/// the result.
 std::vector<SurfaceContext> make_surface_contexts(const Scene& scene, const Camera& camera,
                                                   const RasterProjection& projection,
                                                   const DiceSettings& settings,
                                                   TopologyCache& topologies,
-                                                  Diagnostics& diagnostics);
+                                                  Diagnostics& diagnostics,
+                                                  bool (*wanted)(const Surface&) = nullptr);
 
 /// Throws Error when the surface cannot be evaluated. All arguments must outlive the result.
 SurfaceContext make_surface_context(const Surface& surface, uint32_t index, const Camera& camera,

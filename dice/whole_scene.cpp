@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include <tbb/parallel_for.h>
 
 #include "dice/chunk.h"
+#include "dice/flatness.h"
 #include "dice/surface_context.h"
 
 namespace tessera {
@@ -19,6 +21,11 @@ constexpr float nearest_part_of_extent = 1.0f / 64;
 /// enough for 2^100 times too many.
 constexpr float coarser = 1.5f;
 constexpr int most_attempts = 86;
+
+constexpr int emitter_grid_size = 128;
+/// Slightly more than the whole turn's part, so that rounding does not add a segment to a circle.
+constexpr float emitter_turn_radians =
+    2 * std::numbers::pi_v<float> / (float(emitter_segments_of_turn) - 0.5f);
 
 /// Micropolygons of one surface so far. What happens first between threads does not matter: the
 /// limit is passed in every order or in none.
@@ -109,22 +116,58 @@ std::vector<Chunk> chunks_of_surface(SurfaceContext& context, size_t most_microp
                                      Diagnostics& diagnostics) {
   if (!context.patches) return {};
   const size_t most = std::max(most_micropolygons, 4 * size_t(context.patches->patch_count()));
-  const float wanted = context.rate.step;
+  float times = 1;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     std::optional<std::vector<Chunk>> chunks = chunks_within(context, most);
     if (chunks && attempt > 0) {
       const SourceLocation& where = context.surface->geometry->where;
       diagnostics.warn_once(
           fmt::format("whole surface {}:{}", where.file, where.line), where,
-          fmt::format("for rays this surface would be diced into more than {} micropolygons; they "
-                      "are made {:.1f} times as long. Expected: a larger ray dicing rate",
-                      most, context.rate.step / wanted));
+          fmt::format(
+              "for rays this surface would be diced into more than {} micropolygons; they "
+              "are made {:.1f} times as long. Expected: {}",
+              most, times,
+              context.rate.shape ? "a simpler surface to shine" : "a larger ray dicing rate"));
     }
     if (chunks) return std::move(*chunks);
+    times *= coarser;
     context.rate.step *= coarser;
+    if (context.rate.shape) context.rate.shape->turn_radians *= coarser;
   }
   // Patches that have to be split whatever their size.
   return std::move(chunks_within(context, size_t(-1)).value());
+}
+
+bool is_emitter(const Surface& surface) { return surface.attributes->area_light.has_value(); }
+
+/// `times` as long as those of dice_emitters() where few surfaces shine.
+void dice_by_shape(SurfaceContext& context, size_t least_micropolygons, float times) {
+  const double least = double(least_micropolygons) / double(times * times);
+  const double of_patch = least / double(std::max(context.patches->patch_count(), 1u));
+  context.rate.shape = ShapeRate{.turn_radians = emitter_turn_radians * times,
+                                 .least_segments = std::max(1, int(std::sqrt(of_patch)))};
+  context.rate.max_grid_size = emitter_grid_size;
+}
+
+/// How much longer the micropolygons of so many surfaces that are not flat are.
+float coarseness(size_t curved_surfaces) {
+  const double share = double(curved_surfaces) / double(emitters_at_full_rate);
+  return float(std::sqrt(std::clamp(share, 1.0, double(emitter_most_area))));
+}
+
+/// All that shines and is not flat.
+void dice_curved_emitters_by_shape(std::vector<SurfaceContext>& contexts) {
+  std::vector<char> curved(contexts.size());
+  tbb::parallel_for(size_t(0), contexts.size(), [&](size_t s) {
+    const SurfaceContext& context = contexts[s];
+    curved[s] = context.patches && is_emitter(*context.surface) && !is_flat(context);
+  });
+  const float times = coarseness(size_t(std::ranges::count(curved, 1)));
+  for (size_t s = 0; s < contexts.size(); ++s) {
+    const size_t least = contexts[s].displacer ? emitter_micropolygons_of_displaced
+                                               : emitter_micropolygons_of_curved;
+    if (curved[s]) dice_by_shape(contexts[s], least, times);
+  }
 }
 
 /// Largest extent of the scene along an axis of camera space, at shutter open; 1 when it has none.
@@ -153,23 +196,12 @@ float extent_of(const std::vector<SurfaceContext>& contexts) {
   return std::isfinite(extent) && extent > 0 ? extent : 1.0f;
 }
 
-}  // namespace
-
-std::vector<std::shared_ptr<const Grid>> dice_whole_scene(const Scene& scene, const Camera& camera,
-                                                          const DiceSettings& settings,
-                                                          Diagnostics& diagnostics,
-                                                          size_t most_micropolygons) {
-  if (scene.surfaces.empty()) return {};
-  RasterProjection projection(camera, camera.frame());
-  TopologyCache topologies;
-  std::vector<SurfaceContext> contexts =
-      make_surface_contexts(scene, camera, projection, settings, topologies, diagnostics);
-  const float least = extent_of(contexts) * nearest_part_of_extent;
-  projection.turn_to_eye(std::max(least, std::numeric_limits<float>::min()));
-
+/// All grids of the surfaces, by surface.
+std::vector<std::shared_ptr<const Grid>> dice_all(std::vector<SurfaceContext>& contexts,
+                                                  size_t most_micropolygons,
+                                                  Diagnostics& diagnostics) {
   std::vector<std::vector<Chunk>> by_surface(contexts.size());
   tbb::parallel_for(size_t(0), contexts.size(), [&](size_t s) {
-    contexts[s].rate.motion_factor = contexts[s].rate.focus_factor = 0;
     by_surface[s] = chunks_of_surface(contexts[s], most_micropolygons, diagnostics);
   });
   std::vector<Chunk> chunks;
@@ -186,6 +218,40 @@ std::vector<std::shared_ptr<const Grid>> dice_whole_scene(const Scene& scene, co
     std::move(some.begin(), some.end(), std::back_inserter(grids));
   }
   return grids;
+}
+
+}  // namespace
+
+std::vector<std::shared_ptr<const Grid>> dice_whole_scene(const Scene& scene, const Camera& camera,
+                                                          const DiceSettings& settings,
+                                                          Diagnostics& diagnostics,
+                                                          size_t most_micropolygons) {
+  if (scene.surfaces.empty()) return {};
+  RasterProjection projection(camera, camera.frame());
+  TopologyCache topologies;
+  std::vector<SurfaceContext> contexts =
+      make_surface_contexts(scene, camera, projection, settings, topologies, diagnostics);
+  const float least = extent_of(contexts) * nearest_part_of_extent;
+  projection.turn_to_eye(std::max(least, std::numeric_limits<float>::min()));
+  for (SurfaceContext& context : contexts) {
+    context.rate.motion_factor = context.rate.focus_factor = 0;
+  }
+  dice_curved_emitters_by_shape(contexts);
+  return dice_all(contexts, most_micropolygons, diagnostics);
+}
+
+std::vector<std::shared_ptr<const Grid>> dice_emitters(const Scene& scene, const Camera& camera,
+                                                       const DiceSettings& settings,
+                                                       Diagnostics& diagnostics) {
+  const RasterProjection projection(camera, camera.frame());
+  TopologyCache topologies;
+  std::vector<SurfaceContext> contexts = make_surface_contexts(scene, camera, projection, settings,
+                                                               topologies, diagnostics, is_emitter);
+  dice_curved_emitters_by_shape(contexts);
+  for (SurfaceContext& context : contexts) {
+    if (context.patches && !context.rate.shape) dice_by_shape(context, 1, 1);
+  }
+  return dice_all(contexts, most_micropolygons_of_surface, diagnostics);
 }
 
 }  // namespace tessera

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cameras/camera_matrices.h"
+#include "dice/whole_scene.h"
 #include "engine/bucket_queue.h"
 #include "engine/frame_files.h"
 #include "engine/overrides.h"
@@ -122,6 +123,8 @@ void FramePasses::set_up_surfaces() {
   if (plan_.displacement) displacer_ = make_displacer(bindings_);
   const DiceSettings dice = dice_settings(plan_, buckets_, settings_, displacer_.get(), bindings_);
   grids_ = make_grid_source(scene_, camera_, dice, diagnostics_);
+  if (wants_emitters(*bindings_))
+    use_emitters(*bindings_, dice_emitters(scene_, camera_, dice, diagnostics_));
   if (const auto rays =
           ray_tracer(plan_, scene_, camera_, settings_, dice, threads_, diagnostics_)) {
     use_rays(*bindings_, rays);

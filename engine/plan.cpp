@@ -11,18 +11,11 @@
 #include "engine/accuracy_target.h"
 #include "engine/limits.h"
 #include "hide/hide.h"
+#include "scenes/scene_motion.h"
 #include "shade/shade.h"
 
 namespace tessera {
 namespace {
-
-bool shutter_opens(const CameraSettings& camera) {
-  return camera.shutter_close > camera.shutter_open;
-}
-
-bool surface_moves(const Surface& surface) {
-  return surface.world_from_object.moves() || surface.geometry->key_times.size() > 1;
-}
 
 /// Shadow maps are no textures: they are read without the image library.
 bool names_a_texture(const ShaderCall& shader) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "scenes/scene_motion.h"
 #include "shade/bounce_radiance.h"
 #include "shade/emitter.h"
 #include "shade/extended_light.h"
@@ -36,6 +37,15 @@ std::vector<std::string> shadow_search_path(const Scene& scene) {
 /// so it has no shadows to switch off.
 bool is_brought_by_rays(const LightDefinition& definition) {
   return definition.hemisphere && !definition.ambient;
+}
+
+/// The places that a light or its map is summed over. Throws Error with the place in the file.
+int places_of(const BoundLight& light) {
+  try {
+    return place_count(light.parameters);
+  } catch (const Error& error) {
+    throw Error(light.where, fmt::format("light \"{}\": {}", light.definition->name, error.what()));
+  }
 }
 
 /// Whether some surface belongs to the area light with that index.
@@ -150,12 +160,10 @@ std::optional<BoundLight> ShaderBindings::bind_light(const Light& light, int ind
       light.area ? choose_area_light(call, diagnostics()) : choose_light(call, diagnostics());
   if (!definition) return std::nullopt;
   if (definition == find_light("arealight") && !is_part_of_light(*setup_.scene, index)) {
-    diagnostics().warn_once(
-        fmt::format("area light {} without surfaces", index), call.where,
-        fmt::format("no surface is part of area light \"{}\"; it is left dark (surfaces that "
-                    "follow an AreaLightSource under the same attributes are)",
-                    call.name));
-    return std::nullopt;
+    throw Error(call.where,
+                fmt::format("light \"{}\" can never shine: no surface is part of it. Expected: "
+                            "surfaces that follow an AreaLightSource under the same attributes",
+                            call.name));
   }
   const ShaderSpaces spaces = spaces_of(call);
   const std::string label = fmt::format("light shader \"{}\"", definition->name);
@@ -171,8 +179,7 @@ std::optional<BoundLight> ShaderBindings::bind_light(const Light& light, int ind
 
 void ShaderBindings::bind_extent(BoundLight& light) const {
   const LightDefinition& definition = *light.definition;
-  if (definition.distributed())
-    light.places = light.open_places = spread_places(place_count(light.parameters));
+  if (definition.distributed()) light.places = light.open_places = spread_places(places_of(light));
   if (!definition.measure) return;
   try {
     light.extent = definition.measure(light.parameters, light.camera_from_light);
@@ -183,8 +190,12 @@ void ShaderBindings::bind_extent(BoundLight& light) const {
 }
 
 TermRate ShaderBindings::rate_of(const ShaderCall& call, const BoundLight& light) const {
+  const std::string& name = light.parameters.string("shadowrate");
+  // Cells are shaded at shutter open: what moves would cast its shadow from there, sharp and still.
+  if (name.empty() && !light.definition->distributed())
+    return light.ray_traced && surfaces_move(*setup_.scene) ? TermRate::sample : TermRate::cell;
   try {
-    return term_rate(light.parameters.string("shadowrate"));
+    return term_rate(name);
   } catch (const Error& error) {
     diagnostics().warn_once(fmt::format("shadowrate of {}", call.name), call.where,
                             fmt::format("light \"{}\": {}; cell is used", call.name, error.what()));
@@ -195,15 +206,18 @@ TermRate ShaderBindings::rate_of(const ShaderCall& call, const BoundLight& light
 void ShaderBindings::bind_shadow(const Light& light, BoundLight& bound) {
   const LightDefinition& definition = *bound.definition;
   if (!definition.transmission && !definition.distributed()) return;
-  bound.rate = rate_of(light.shader, bound);
   if (definition.distributed()) {
     bound.ray_traced = light.shadow != "off" || is_brought_by_rays(definition);
   } else if (const std::string& map = bound.parameters.string("shadowname"); !map.empty()) {
     bound.ray_traced = map == ray_traced_name;
-    if (!bound.ray_traced) bound.shadow = &shadows_.source(map, light.shader.where);
+    if (!bound.ray_traced) {
+      places_of(bound);  // throws where there is no such number
+      bound.shadow = &shadows_.source(map, light.shader.where);
+    }
   } else {
     bound.ray_traced = light.shadow == "on";
   }
+  bound.rate = rate_of(light.shader, bound);
   // Light from an extent varies with the place on it even if nothing is in the way.
   const bool varies = bound.casts_shadows() || definition.illuminate_from;
   if (!varies || bound.rate == TermRate::cell) return;
@@ -212,7 +226,7 @@ void ShaderBindings::bind_shadow(const Light& light, BoundLight& bound) {
   if (!definition.illuminate_from) return;
   bound.mean_term = term_count_++;
   // Each sample adds a place to what the light brings, cells the rest: these can be many.
-  bound.open_places = spread_places(term_places_scale * place_count(bound.parameters));
+  bound.open_places = spread_places(term_places_scale * places_of(bound));
 }
 
 void ShaderBindings::use_rays(std::shared_ptr<const RayTracer> rays) {
@@ -220,19 +234,22 @@ void ShaderBindings::use_rays(std::shared_ptr<const RayTracer> rays) {
   bounce_ = rays_ ? std::make_shared<const BounceRadiance>(*this, *rays_) : nullptr;
   light_services_.rays = rays_.get();
   light_services_.bounce = bounce_.get();
-  for (size_t i = 0; rays_ && i < lights_.size(); ++i) {
-    if (lights_[i] && setup_.scene->lights[i].area) make_emitter(*rays_, int(i), *lights_[i]);
+}
+
+void ShaderBindings::use_emitters(std::span<const std::shared_ptr<const Grid>> grids) {
+  for (size_t i = 0; i < lights_.size(); ++i) {
+    if (lights_[i] && setup_.scene->lights[i].area) make_emitter(grids, int(i), *lights_[i]);
   }
 }
 
-bool ShaderBindings::wants_rays() const {
-  // Area lights need them to know where their surfaces are.
-  const auto wants = [](const std::optional<BoundLight>& light, const Light& of_scene) {
-    return light && (light->ray_traced || of_scene.area);
-  };
+bool ShaderBindings::wants_emitters() const {
   for (size_t i = 0; i < lights_.size(); ++i)
-    if (wants(lights_[i], setup_.scene->lights[i])) return true;
+    if (lights_[i] && setup_.scene->lights[i].area) return true;
   return false;
+}
+
+bool ShaderBindings::wants_rays() const {
+  return std::ranges::any_of(lights_, [](const auto& light) { return light && light->ray_traced; });
 }
 
 bool ShaderBindings::has_effect(RayEffect effect) const {
@@ -247,8 +264,14 @@ std::shared_ptr<ShaderBindings> bind_shaders(const ShadeSetup& setup) {
 
 bool wants_rays(const ShaderBindings& bindings) { return bindings.wants_rays(); }
 
+bool wants_emitters(const ShaderBindings& bindings) { return bindings.wants_emitters(); }
+
 bool has_effect(const ShaderBindings& bindings, RayEffect effect) {
   return bindings.has_effect(effect);
+}
+
+void use_emitters(ShaderBindings& bindings, std::span<const std::shared_ptr<const Grid>> grids) {
+  bindings.use_emitters(grids);
 }
 
 void use_rays(ShaderBindings& bindings, std::shared_ptr<const RayTracer> rays) {

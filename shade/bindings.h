@@ -49,8 +49,11 @@ class ShaderBindings {
   size_t light_term_count() const { return term_count_; }
   /// Lights of the scene whose shadows are looked up at a rate of their own.
   std::span<const BoundLight* const> term_lights() const { return term_lights_; }
-  /// Before the first point is shaded. Area lights start to shine from the surfaces found there.
-  /// Throws Error, with the place in the scene file, where one has no area.
+  /// Before the first point is shaded: the grids of the surfaces that area lights shine from.
+  /// Throws Error, with the place in the scene file, where a light has no area.
+  void use_emitters(std::span<const std::shared_ptr<const Grid>> grids);
+  bool wants_emitters() const;
+  /// Before the first point is shaded.
   void use_rays(std::shared_ptr<const RayTracer> rays);
   /// Null: there are none.
   const RayTracer* rays() const { return rays_.get(); }

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "shade/fragment_geometry.h"
-#include "shade/ray_tracer.h"
+#include "shade/mathematics.h"
 
 namespace tessera {
 namespace {
@@ -155,12 +155,13 @@ LightPlace Emitter::place(glm::vec2 xi, float time) const {
           length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f)};
 }
 
-void make_emitter(const RayTracer& rays, int index, BoundLight& light) {
-  std::vector<std::shared_ptr<const Grid>> grids;
-  for (const std::shared_ptr<const Grid>& grid : rays.grids()) {
-    if (grid->attributes().area_light == index) grids.push_back(grid);
+void make_emitter(std::span<const std::shared_ptr<const Grid>> grids, int index,
+                  BoundLight& light) {
+  std::vector<std::shared_ptr<const Grid>> own;
+  for (const std::shared_ptr<const Grid>& grid : grids) {
+    if (grid->attributes().area_light == index) own.push_back(grid);
   }
-  const auto emitter = std::make_shared<Emitter>(std::move(grids));
+  const auto emitter = std::make_shared<Emitter>(std::move(own));
   if (emitter->empty()) {
     throw Error(light.where, fmt::format("light \"{}\" can never shine: its surfaces have no area",
                                          light.definition->name));

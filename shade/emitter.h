@@ -10,8 +10,6 @@
 
 namespace tessera {
 
-class RayTracer;
-
 /// Immutable and thread safe. Keeps the grids alive.
 class Emitter {
  public:
@@ -49,8 +47,8 @@ class Emitter {
   LightExtent extent_;
 };
 
-/// Gives area light number `index` of the scene the surfaces that are part of it. Throws Error,
-/// with the place of the light in the scene file, where they have no area.
-void make_emitter(const RayTracer& rays, int index, BoundLight& light);
+/// Gives area light number `index` of the scene the grids that are part of it. Throws Error, with
+/// the place of the light in the scene file, where they have no area.
+void make_emitter(std::span<const std::shared_ptr<const Grid>> grids, int index, BoundLight& light);
 
 }  // namespace tessera

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "shade/camera_motion.h"
+#include "shade/mathematics.h"
 #include "shade/ray_shadows.h"
 #include "shade/receiver_frame.h"
 #include "shade/shade.h"
@@ -113,6 +115,41 @@ void fill_coordinates(const BoundLight& light, const ShadingPoints& points,
   }
 }
 
+/// Points as the light sees them: where they would be in camera space had the camera stood still
+/// since shutter open, as the light is given. Surfaces that shine move with their grids instead.
+class StillPoints {
+ public:
+  StillPoints(const BoundLight& light, const ShadingPoints& points, const Camera* camera)
+      : now_(points), camera_(camera), carried_(camera_.concerns(points) && !light.emitter) {
+    if (!carried_) return;
+    P_.reset(points.count), N_.reset(points.count);
+    for (int i = 0; i < points.count; ++i) {
+      const glm::dmat4 now_from_open = camera_.now_from_open(points.time[i]);
+      P_.set(i, glm::inverse(now_from_open) * glm::dvec4(points.P[i], 1.0));
+      N_.set(i, unit_or_zero(glm::transpose(glm::dmat3(now_from_open)) * glm::dvec3(points.N[i])));
+    }
+  }
+
+  ShadingPoints points() const {
+    ShadingPoints still = now_;
+    if (carried_) still.P = P_, still.N = N_;
+    return still;
+  }
+  /// Directions from these points become those from where the points are.
+  void carry(Vec3Array& towards) const {
+    for (int i = 0; carried_ && i < now_.count; ++i) {
+      const glm::dmat3 now_from_open(camera_.now_from_open(now_.time[i]));
+      towards.set(i, now_from_open * glm::dvec3(towards[i]));
+    }
+  }
+
+ private:
+  const ShadingPoints& now_;
+  CameraMotion camera_;
+  bool carried_;
+  Vec3Array P_{0}, N_{0};
+};
+
 }  // namespace
 
 std::vector<ParameterDeclaration> with_extent_parameters(std::vector<ParameterDeclaration> own) {
@@ -144,8 +181,11 @@ std::vector<glm::vec2> spread_places(int count) {
 }
 
 int place_count(const BoundParameters& parameters) {
-  const float asked = parameters.scalar("samples");
-  return std::isfinite(asked) ? int(std::clamp(std::round(asked), 1.0f, 4096.0f)) : 16;
+  constexpr float most = 4096.0f;
+  const float asked = parameters.scalar("samples"), count = std::round(asked);
+  if (!(count >= 1.0f && count <= most))
+    throw Error(fmt::format("samples must lie between 1 and {}, found {}", most, asked));
+  return int(count);
 }
 
 void set_place(const BoundLight& light, const glm::vec3& P, const LightPlace& place,
@@ -169,8 +209,10 @@ void share_from_extent(const BoundLight& light, const ShadingPoints& given,
                        std::span<const glm::vec2> xi, const LightServices& services,
                        ShareSamples& out) {
   const Vec3Array N = facing_normals(given, services.camera);
-  ShadingPoints points = given;
-  points.N = N;
+  ShadingPoints now = given;
+  now.N = N;
+  const StillPoints still(light, now, services.camera);
+  const ShadingPoints points = still.points();
   out.reset(points.count);
   PlaceSamples from;
   illuminate_from(light, points, xi, services.counters, from);
@@ -185,7 +227,8 @@ void share_from_extent(const BoundLight& light, const ShadingPoints& given,
   out.share = out.open;
   if (!light.ray_traced) return;
   PlaceShadows shadows;
-  trace_shadows(services.rays, points, from.towards, light.extent.infinite, shadows);
+  still.carry(from.towards);
+  trace_shadows(services.rays, now, from.towards, light.extent.infinite, shadows);
   if (services.counters) services.counters->rays += shadows.rays;
   for (int i = 0; i < points.count; ++i) {
     const size_t k = size_t(i);

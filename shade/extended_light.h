@@ -16,8 +16,8 @@ glm::vec3 radiance_of(const BoundParameters& parameters);
 /// stratum along x and along y.
 std::vector<glm::vec2> spread_places(int count);
 
-/// The number of places that a light's "samples" asks for: 16 where it is not finite, otherwise
-/// rounded and kept in [1, 4096].
+/// The number of places that a light's "samples" asks for, rounded. Throws Error outside of 1 to
+/// 4096.
 int place_count(const BoundParameters& parameters);
 /// Where each sample casts a ray of its own, the unblocked light is summed over this many times as
 /// many places.

@@ -121,8 +121,14 @@ std::unique_ptr<Shading> make_shading(std::string_view spec, const ShadingFrame&
 std::shared_ptr<ShaderBindings> bind_shaders(const ShadeSetup& setup);
 /// Whether some shader or light asks for rays.
 bool wants_rays(const ShaderBindings& bindings);
+/// Whether some light shines from surfaces of the scene.
+bool wants_emitters(const ShaderBindings& bindings);
 /// Whether some light's samples are rays of each sample's own.
 bool has_effect(const ShaderBindings& bindings, RayEffect effect);
+/// Hands over the grids of those surfaces (dice/whole_scene.h), before the first shade(). Without
+/// it they light nothing. Throws Error, with the place in the scene file, where a light has no
+/// area.
+void use_emitters(ShaderBindings& bindings, std::span<const std::shared_ptr<const Grid>> grids);
 /// Hands over what answers rays, before the first shade(). Without it nothing is in the way of
 /// light and nothing bounces.
 void use_rays(ShaderBindings& bindings, std::shared_ptr<const RayTracer> rays);

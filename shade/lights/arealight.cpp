@@ -22,7 +22,7 @@ class RecentPlace {
 
 void illuminate_from(const BoundLight& light, const ShadingPoints& points,
                      std::span<const glm::vec2> xi, PlaceSamples& out) {
-  if (!light.emitter) return;  // nobody traces rays: where its surfaces are is not known
+  if (!light.emitter) return;  // nobody has said where its surfaces are
   const glm::vec3 radiance = radiance_of(light.parameters);
   const bool double_sided = light.parameters.scalar("doublesided") != 0.0f;
   const bool timed = points.time && light.emitter->moves();

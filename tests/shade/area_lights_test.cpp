@@ -15,12 +15,11 @@ using namespace tessera::test;
 
 namespace {
 
-/// An area light on one surface, and a tracer that knows it and is blocked by nothing else.
+/// An area light on one surface, with the grids that shine. Nothing is in the way.
 struct AreaScene {
   TestScene test;
   std::shared_ptr<ShaderBindings> bindings;
-  std::shared_ptr<AnalyticBlocker> rays = std::make_shared<AnalyticBlocker>(
-      [](const auto&, const auto&) { return std::numeric_limits<double>::infinity(); });
+  std::vector<std::shared_ptr<const Grid>> grids;
   const Surface* shining = nullptr;
   const Surface* lit = nullptr;
 
@@ -37,6 +36,7 @@ struct AreaScene {
     test.camera = std::make_unique<Camera>(test.scene.camera);
     bindings = bind_shaders({&test.scene, test.camera.get(), &test.diagnostics, nullptr});
   }
+  void shine() { bindings->use_emitters(grids); }
   const BoundLight& light() const { return *bindings->of(*lit->attributes).lights.at(0); }
 };
 
@@ -59,10 +59,10 @@ TEST_CASE("an area light on a rectangle is a rectanglelight", "[light]") {
                                 from_light));
   AreaScene area({number("intensity", 2.0f), number("samples", 64)});
   const LightExtent& extent = rectangle.light().extent;
-  area.rays->seen_grids = {
+  area.grids = {
       rectangle_grid(*area.shining, 16, extent.centre, extent.half_axes[0], extent.half_axes[1])};
   area.bind();
-  area.bindings->use_rays(area.rays);
+  area.shine();
   const BoundLight& light = area.light();
   CHECK(glm::distance(light.extent.centre, extent.centre) < 1e-6f);
   CHECK(light.extent.area_root == Approx(extent.area_root));
@@ -83,9 +83,9 @@ TEST_CASE("outward is what the grid says, and both sides shine on request", "[li
       AreaScene area({number("doublesided", both)});
       const auto grid = rectangle_grid(*area.shining, 2, {0, 0, 2}, {1, 0, 0}, {0, 1, 0});
       grid->normal_sign = sign;
-      area.rays->seen_grids = {grid};
+      area.grids = {grid};
       area.bind();
-      area.bindings->use_rays(area.rays);
+      area.shine();
       const bool forward = quadrature(area.light(), {0, 0, 5}, {0, 0, -1}).x > 0.0;
       const bool backward = quadrature(area.light(), {0, 0, -1}, {0, 0, 1}).x > 0.0;
       CHECK(forward == (both != 0.0f || sign > 0.0f));
@@ -179,9 +179,9 @@ TEST_CASE("points of one batch see a moving area light each at its own time", "[
   AreaScene area({});
   const auto grid = rectangle_grid(*area.shining, 1, {0, 0, 1}, {0.5f, 0, 0}, {0, 0.5f, 0});
   add_key(*grid, 1.0f, [](const glm::vec3& P) { return P + 2.0f; });
-  area.rays->seen_grids = {grid};
+  area.grids = {grid};
   area.bind();
-  area.bindings->use_rays(area.rays);
+  area.shine();
   BarePoints at({{0, 0, 6}, {0, 0, 6}, {0, 0, 6}}, {0, 0, -1});
   const std::vector<float> times{0.0f, 0.5f, 1.0f};
   at.points.time = times.data();
@@ -207,9 +207,9 @@ TEST_CASE("triangles without area are left out, and light without any is refused
   CHECK(Emitter({grid}).extent().area_root == Approx(std::sqrt(3.0)));  // 6 of 8 triangles
   area.bind();
   const auto refusal = [&](std::shared_ptr<Grid> only) -> std::string {
-    area.rays->seen_grids = {std::move(only)};
+    area.grids = {std::move(only)};
     try {
-      area.bindings->use_rays(area.rays);
+      area.shine();
     } catch (const Error& error) {
       return error.what();
     }
@@ -225,16 +225,26 @@ TEST_CASE("triangles without area are left out, and light without any is refused
   }
 }
 
-TEST_CASE("an area light that no surface is part of is dark and says so", "[light]") {
-  TestScene test;
-  test.add_light(call("arealight"), true);
-  test.add_light(call("arealight"));
-  const Surface& surface = test.add_surface("matte");
-  const auto bindings = test.bind();
-  CHECK(bindings->of(*surface.attributes).lights.empty());
-  CHECK_FALSE(wants_rays(*bindings));
-  REQUIRE(test.diagnostics.lines().size() == 2);
-  CHECK(test.warned("scene.rib:7: warning: no surface is part of area light \"arealight\""));
+TEST_CASE("an area light that no surface is part of is refused", "[light]") {
+  for (const bool area : {true, false}) {
+    TestScene test;
+    test.add_light(call("arealight"), area);
+    test.add_surface("matte");
+    CHECK_THROWS_WITH(test.bind(),
+                      Catch::StartsWith("scene.rib:7: light \"arealight\" can never shine") &&
+                          Catch::Contains("no surface is part of it"));
+  }
+}
+
+TEST_CASE("rays are asked for by the shadows of area lights only", "[light]") {
+  for (const char* shadow : {"", "off"}) {
+    AreaScene area({});
+    area.test.scene.lights.back().shadow = shadow;
+    area.bind();
+    CHECK(wants_emitters(*area.bindings));
+    CHECK(wants_rays(*area.bindings) == (shadow != std::string("off")));
+  }
+  CHECK_FALSE(wants_emitters(*LitScene(call("rectanglelight")).bindings));
 }
 
 TEST_CASE("area light shaders by other names are area lights, said once", "[light]") {
@@ -242,7 +252,7 @@ TEST_CASE("area light shaders by other names are area lights, said once", "[ligh
   area.bind();
   CHECK(area.light().definition->name == "arealight");
   CHECK(area.test.warned("\"finite\" is taken as an arealight"));
-  // Without rays it is not known where its surfaces are.
+  // Until they are handed over it is not known where its surfaces are.
   CHECK(quadrature(area.light(), {0, 0, 5}, {0, 0, -1}).x == 0.0);
 }
 

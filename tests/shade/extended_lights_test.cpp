@@ -333,7 +333,19 @@ TEST_CASE("lights that can never shine are refused with their place and what is 
   CHECK_THAT(refusal(call("spherelight", {}, flat)), Contains("cross section"));
   // What is flat anyway may be flattened along its normal.
   CHECK(refusal(call("disclight", {}, glm::scale(identity, glm::dvec3(1, 1, 0)))).empty());
-  CHECK(refusal(call("domelight", {number("samples", NAN)}, flat)).empty());
+  CHECK(refusal(call("domelight", {}, flat)).empty());
+  for (const float samples : {0.0f, -1.0f, 0.4f, 4097.0f, 1e30f, INFINITY, NAN}) {
+    CAPTURE(samples);
+    for (const char* name : {"rectanglelight", "domelight", "occlusionlight", "indirectlight"})
+      CHECK_THAT(refusal(call(name, {number("samples", samples)})),
+                 StartsWith("scene.rib:7: ") && Contains(name) && Contains("between 1 and 4096"));
+    CHECK_THAT(
+        refusal(call("spotlight", {number("samples", samples), text("shadowname", "map.z")})),
+        StartsWith("scene.rib:7: ") && Contains("between 1 and 4096"));
+    CHECK(refusal(call("spotlight", {number("samples", samples)})).empty());  // not asked for
+  }
+  for (const float samples : {1.0f, 0.6f, 4096.0f})
+    CHECK(refusal(call("rectanglelight", {number("samples", samples)})).empty());
   CHECK_THAT(refusal(call("domelight", {text("texturename", "sky.tex")}, flat)),
              StartsWith("scene.rib:7: ") && Contains("inverse"));
 }
