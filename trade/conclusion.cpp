@@ -1,5 +1,6 @@
 #include "trade/conclusion.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -21,6 +22,22 @@ namespace {
 /// what was measured.
 constexpr double limiting_share = 0.25;
 
+/// A black image is off by up to 1: a run that is as far from the reference as half of it shows
+/// something else, most likely.
+constexpr double alien_rel_mse = 0.5;
+
+/// A warning that images and reference may not be of one scene; empty: they agree.
+std::string alien_note(const std::vector<Run>& runs) {
+  const auto alien = [](const Run& run) { return run.ok() && run.result.rel_mse > alien_rel_mse; };
+  const auto first = std::find_if(runs.begin(), runs.end(), alien);
+  if (first == runs.end()) return "";
+  return fmt::format(
+      "runs with a relMSE above {}: {} (as {}). Look at their images beside the reference, which "
+      "may "
+      "be of another scene",
+      alien_rel_mse, std::count_if(first, runs.end(), alien), first->configuration.label());
+}
+
 }  // namespace
 
 void conclude(const TradeOptions& options, const SweepOutcome& outcome, TradeTable& table) {
@@ -28,6 +45,8 @@ void conclude(const TradeOptions& options, const SweepOutcome& outcome, TradeTab
   for (Run& run : table.runs)
     run.limited = run.ok() && table.reference.rel_mse > limiting_share * run.result.rel_mse;
   mark_front(table.runs);
+  if (const std::string note = alien_note(table.runs); !note.empty())
+    table.list.notes.push_back(note);
   if (!outcome.left_out.empty())
     table.list.notes.push_back(fmt::format("not run{}: {}",
                                            outcome.cancelled ? "" : ", as the budget was spent",
