@@ -47,6 +47,10 @@ void conclude(const TradeOptions& options, const SweepOutcome& outcome, TradeTab
   mark_front(table.runs);
   if (const std::string note = alien_note(table.runs); !note.empty())
     table.list.notes.push_back(note);
+  for (const Run& run : table.runs)
+    if (run.ok() && !run.failed_repeat.empty())
+      table.list.notes.push_back(fmt::format("{}: {}; the row is of the other repeats",
+                                             run.configuration.label(), run.failed_repeat));
   if (!outcome.left_out.empty())
     table.list.notes.push_back(fmt::format("not run{}: {}",
                                            outcome.cancelled ? "" : ", as the budget was spent",

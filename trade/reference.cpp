@@ -92,9 +92,10 @@ std::string window_text(const PixelRect& window) {
 }  // namespace
 
 std::vector<std::string> reference_options(const std::vector<std::string>& common) {
-  const std::vector<std::pair<std::string, std::string>> accurate = {
-      {"--shading", "sample"}, {"--reconstruct", "filter"}, {"--dicing-rate", "0.25"},
-      {"--ray-dicing-rate", "1"}};
+  const std::vector<std::pair<std::string, std::string>> accurate = {{"--shading", "sample"},
+                                                                     {"--reconstruct", "filter"},
+                                                                     {"--dicing-rate", "0.25"},
+                                                                     {"--ray-dicing-rate", "1"}};
   std::vector<std::string> options;
   for (const auto& [name, value] : accurate)
     if (std::find(common.begin(), common.end(), name) == common.end())

@@ -22,7 +22,9 @@ class Sweep {
         cancelled_(cancelled),
         costs_(settings.probe_wall_s, settings.probe_spp) {
     outcome_.measurements = before;
-    for (const Measurement& measurement : before) note(measurement);
+    // What failed may go well now: with more time, more room on the disc, another machine's memory.
+    for (const Measurement& measurement : before)
+      if (measurement.ok) note(measurement);
     for (const Configuration& configuration : configurations)
       for (const Measurement& measurement : before)
         if (measurement.ok && measurement.label == configuration.label())

@@ -57,7 +57,8 @@ std::vector<size_t> shuffled_order(size_t count, int round);
 
 /// Round by round, each configuration once in each. With a budget the first round goes from what is
 /// predicted to be cheap to what is dear, and nothing is started that is predicted not to fit.
-/// Configurations that failed are not repeated, and what is in `before` is not run again.
+/// Configurations that failed are not repeated. What went well in `before` is not run again; what
+/// failed there is.
 SweepOutcome sweep(const std::vector<Configuration>& configurations, const SweepSettings& settings,
                    const std::vector<Measurement>& before, const Runner& runner, const Clock& clock,
                    const std::function<bool()>& cancelled);

@@ -182,7 +182,10 @@ void Trade::read_before() {
   before_ = read_ledger(file);
   check_identity(file, before_->identity, identity());
   if (before_->torn) say(fmt::format("{}: the last line is torn and left out", file));
-  say(fmt::format("resuming after {} runs", before_->measurements.size()));
+  const auto& runs = before_->measurements;
+  const auto failed = std::count_if(runs.begin(), runs.end(), [](auto& run) { return !run.ok; });
+  say(fmt::format("resuming after {} runs{}", runs.size(),
+                  failed > 0 ? fmt::format("; {} that failed are tried again", failed) : ""));
 }
 
 Ledger Trade::open_ledger() {

@@ -141,6 +141,25 @@ TEST_CASE("an interrupted sweep goes on where it was, and nothing runs twice") {
   CHECK(both == whole.started);
 }
 
+TEST_CASE("what failed before is tried again, once, and what went well is not") {
+  const auto all = some_configurations();
+  SweepSettings settings;
+  settings.repeats = 2;
+  FakeMachine first, second, third;
+  first.failing = {"spp=4", "spp=16"};
+  const SweepOutcome before = first.sweep(all, settings);
+  second.failing = {"spp=16"};
+  const SweepOutcome after = second.sweep(all, settings, before.measurements);
+  std::multiset<std::pair<std::string, int>> started(second.started.begin(), second.started.end());
+  CHECK(started ==
+        std::multiset<std::pair<std::string, int>>{{"spp=4", 0}, {"spp=4", 1}, {"spp=16", 0}});
+  const std::vector<Run> runs = gather_runs(all, after.measurements);
+  CHECK(runs[0].ok());
+  CHECK_FALSE(runs[1].ok());
+  third.sweep(all, settings, after.measurements);
+  CHECK(third.started == std::vector<std::pair<std::string, int>>{{"spp=16", 0}, {"spp=16", 1}});
+}
+
 TEST_CASE("costs are predicted from what is nearest") {
   CostModel costs(2, 16);
   const auto all = some_configurations();
