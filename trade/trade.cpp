@@ -29,6 +29,8 @@ namespace {
 
 /// Of a budget, the most that the reference may take.
 constexpr double reference_share = 1.0 / 3.0;
+/// Of a budget, what the report may take: its heat maps, and within that the page itself.
+constexpr double report_share = 0.2, page_share = 0.05;
 /// Samples per pixel of the short reference that tells what a sample of it costs.
 constexpr int pilot_spp = 2;
 
@@ -71,6 +73,7 @@ class Trade {
   Ledger open_ledger();
   void name_configurations(const std::vector<Measurement>& before);
   SweepOutcome measure_all(Ledger& ledger, const std::vector<Measurement>& before);
+  void map_costs();
 
   const TradeOptions& options_;
   const std::atomic<bool>& cancel_;
@@ -232,12 +235,22 @@ SweepOutcome Trade::measure_all(Ledger& ledger, const std::vector<Measurement>& 
   };
   SweepSettings settings;
   settings.repeats = options_.repeats;
-  if (options_.budget_s) settings.end_s = *options_.budget_s;
+  if (options_.budget_s)
+    settings.end_s = *options_.budget_s * (options_.report.empty() ? 1 : 1 - report_share);
   settings.probe_wall_s = probe_wall_s_;
   settings.probe_spp = table_.list.scene_spp;
   return sweep(
       all, settings, before, runner, [this] { return elapsed_s(); },
       [this] { return cancel_.load(); });
+}
+
+void Trade::map_costs() {
+  const double page_s = options_.budget_s ? page_share * *options_.budget_s : 0;
+  HeatMaps maps = render_heat_maps(
+      renderer_, runs_to_map(table_.runs),
+      {path("runs"), [&] { return left_s() - page_s; }, [this] { return cancel_.load(); }});
+  table_.heat_maps = std::move(maps.made);
+  for (std::string& note : maps.notes) table_.list.notes.push_back(std::move(note));
 }
 
 int Trade::run() {
@@ -256,9 +269,7 @@ int Trade::run() {
   const SweepOutcome outcome = measure_all(ledger, before);
   if (!busy_note_.empty()) table_.list.notes.push_back(busy_note_);
   conclude(options_, outcome, table_);
-  if (!options_.report.empty() && !outcome.cancelled)
-    table_.heat_maps = render_heat_maps(renderer_, runs_to_map(table_.runs), path("runs"),
-                                        [this] { return cancel_.load(); });
+  if (!options_.report.empty() && !outcome.cancelled) map_costs();
   write_results(options_, table_);
   if (outcome.cancelled || cancel_) {
     say("interrupted; --resume goes on");
