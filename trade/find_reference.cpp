@@ -90,7 +90,7 @@ Reference Search::rendered() {
   const int spp = choose ? affordable_spp() : options_.reference_spp.value_or(search_.usual_spp);
   Reference reference = make_reference(renderer_, request(spp));
   const double took_s = left_s - search_.left_s();
-  if (options_.budget_s && took_s > reference_share * *options_.budget_s)
+  if (options_.budget_s && !choose && took_s > reference_share * *options_.budget_s)
     notes_.push_back(fmt::format("the reference took {:.0f} s of the budget's {:.0f} s", took_s,
                                  *options_.budget_s));
   return reference;

@@ -113,7 +113,7 @@ Measurement Measurement::from_json(const Json& json) {
 }
 
 double Run::spread() const {
-  if (frame_s_all.size() < 2) return 0;
+  if (frame_s_all.size() < 2) return unknown;
   const auto [least, most] = std::minmax_element(frame_s_all.begin(), frame_s_all.end());
   return result.frame_s > 0 ? 0.5 * (*most - *least) / result.frame_s : 0;
 }

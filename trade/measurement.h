@@ -46,7 +46,8 @@ struct Run {
   bool limited = false;  ///< its error is near that of the reference
 
   bool ok() const { return measured && result.ok; }
-  /// Half of what the frame times of the repeats span, over their median; 0 with fewer than two.
+  /// Half of what the frame times of the repeats span, over their median; unknown with fewer than
+  /// two.
   double spread() const;
 };
 

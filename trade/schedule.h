@@ -51,12 +51,13 @@ class CostModel {
   std::map<std::string, Known> by_turn_;
 };
 
-/// The order of a round without a budget: shuffled, the same way for the same round, so that what
+/// The order of a round: shuffled, the same way for the same round, so that what
 /// drifts with time (heat, other programs) does not go with any knob.
 std::vector<size_t> shuffled_order(size_t count, int round);
 
 /// Round by round, each configuration once in each. With a budget the first round goes from what is
-/// predicted to be cheap to what is dear, and nothing is started that is predicted not to fit.
+/// predicted to be cheap to what is dear, shuffled among what costs nearly the same, and nothing is
+/// started that is predicted not to fit.
 /// Configurations that failed are not repeated. What went well in `before` is not run again; what
 /// failed there is.
 SweepOutcome sweep(const std::vector<Configuration>& configurations, const SweepSettings& settings,
