@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/error.h"
 #include "engine/frame_files.h"
 #include "report/report.h"
 #include "trade/against.h"
@@ -21,6 +22,10 @@ namespace {
 /// A run is limited by the reference when the reference's own error is more than this share of
 /// what was measured.
 constexpr double limiting_share = 0.25;
+
+std::string page_of(const TradeOptions& options) {
+  return (fs::path(options.report) / "index.html").string();
+}
 
 /// A black image is off by up to 1: a run that is as far from the reference as half of it shows
 /// something else, most likely.
@@ -67,6 +72,15 @@ void conclude(const TradeOptions& options, const SweepOutcome& outcome, TradeTab
     table.bench_tables.push_back(read_bench_table(file));
 }
 
+void prepare_report(const TradeOptions& options) {
+  if (options.report.empty()) return;
+  std::error_code error;
+  fs::create_directories(options.report, error);
+  if (error)
+    throw Error(fmt::format("--report: cannot write to {}: {}", options.report, error.message()));
+  check_writable(page_of(options));
+}
+
 void write_results(const TradeOptions& options, const TradeTable& table) {
   using Json = nlohmann::ordered_json;
   const fs::path folder = options.output;
@@ -79,8 +93,7 @@ void write_results(const TradeOptions& options, const TradeTable& table) {
   for (const std::string& sentence : table.words) fmt::print("- {}\n", sentence);
   for (const Json& extra : table.tables) fmt::print("\n{}", text_of_extra(extra));
   if (options.report.empty()) return;
-  fs::create_directories(options.report);
-  write_report(json, folder, fs::path(options.report) / "index.html");
+  write_report(json, folder, page_of(options));
 }
 
 }  // namespace tessera::trade

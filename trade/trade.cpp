@@ -253,7 +253,8 @@ int run_trade(const TradeOptions& options, const std::string& program,
   // Before anything is made: a scene that is not there leaves no folder behind.
   ContentHash().add_file(options.scene);
   for (const std::string& file : options.tables) read_bench_table(file);
-  prepare_folder(options.output, options.resume, options.fresh);
+  const FolderLock lock = prepare_folder(options.output, options.resume, options.fresh);
+  prepare_report(options);
   try {
     return Trade(options, program, cancel).run();
   } catch (const Error&) {

@@ -130,17 +130,32 @@ TEST_CASE(
 TEST_CASE("a folder with runs is kept unless it is said otherwise, and what is no sweep is kept") {
   const TestFolder folder;
   const std::string output = folder / "deep/out";
-  prepare_folder(output, false, false);
+  (void)prepare_folder(output, false, false);
   const std::string image = folder.write("deep/out/runs/0001.exr", "image");
-  prepare_folder(output, false, true);
+  (void)prepare_folder(output, false, true);
   CHECK(text_in(image) == "image");
   folder.write("deep/out/runs.jsonl", "{}\n");
-  CHECK_THROWS_WITH(prepare_folder(output, false, false), Contains("--resume"));
-  prepare_folder(output, true, false);
+  CHECK_THROWS_WITH((void)prepare_folder(output, false, false), Contains("--resume"));
+  (void)prepare_folder(output, true, false);
   CHECK(text_in(image) == "image");
-  prepare_folder(output, false, true);
+  (void)prepare_folder(output, false, true);
   CHECK_FALSE(std::filesystem::exists(image));
   CHECK_FALSE(std::filesystem::exists(folder / "deep/out/runs.jsonl"));
   CHECK(std::filesystem::is_directory(folder / "deep/out/runs"));
-  CHECK_THROWS_WITH(prepare_folder(folder.write("file", ""), false, false), Contains("no folder"));
+  CHECK_THROWS_WITH((void)prepare_folder(folder.write("file", ""), false, false),
+                    Contains("no folder"));
+}
+
+TEST_CASE("a folder is one sweep's at a time, and free when that ends") {
+  const TestFolder folder;
+  {
+    const FolderLock lock = prepare_folder(folder / "out", false, false);
+    CHECK_THROWS_WITH((void)prepare_folder(folder / "out", true, false), Contains("another sweep"));
+    // Nor does it forget what the other is writing.
+    folder.write("out/runs.jsonl", "{}\n");
+    CHECK_THROWS_WITH((void)prepare_folder(folder / "out", false, true), Contains("another sweep"));
+    CHECK(std::filesystem::exists(folder / "out/runs.jsonl"));
+    CHECK_NOTHROW((void)prepare_folder(folder / "elsewhere", false, false));
+  }
+  CHECK_NOTHROW((void)prepare_folder(folder / "out", true, false));
 }
