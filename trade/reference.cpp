@@ -196,15 +196,7 @@ bool is_cached(const Renderer& renderer, const ReferenceRequest& request) {
 }
 
 double predict_reference_s(const std::vector<Pilot>& pilots, int spp) {
-  constexpr double least_share = 0.1;
-  const Pilot &last = pilots.back(), &first = pilots.front();
-  double sample_s = last.wall_s / last.spp, fixed_s = 0;
-  if (first.spp < last.spp) {
-    const double slope_s = (last.wall_s - first.wall_s) / (last.spp - first.spp);
-    sample_s = std::clamp(slope_s, least_share * sample_s, sample_s);
-    fixed_s = last.wall_s - sample_s * last.spp;
-  }
-  return 2 * (fixed_s + sample_s * half_of(spp));
+  return 2 * LinearCost::from(pilots.front(), pilots.back()).of(half_of(spp));
 }
 
 std::optional<Reference> kept_reference(const Renderer& renderer, const std::string& file,

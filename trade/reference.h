@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "images/image.h"
+#include "trade/linear_cost.h"
 #include "trade/measurement.h"
 #include "trade/renderer.h"
 
@@ -46,16 +47,8 @@ Reference make_reference(const Renderer& renderer, const ReferenceRequest& reque
 /// Whether make_reference() would find it in the cache.
 bool is_cached(const Renderer& renderer, const ReferenceRequest& request);
 
-/// A short render with the options of a reference: samples per pixel, seconds of its process.
-struct Pilot {
-  int spp = 0;
-  double wall_s = 0;
-};
-
-/// Seconds that a reference of `spp` samples for both halves together takes, from one or two pilots
-/// by rising samples: a part that each half has whatever its samples (start, dicing) and a part for
-/// each sample, which with one pilot is all of it. The second is taken to be at least a tenth of
-/// what the longer pilot's time is for each of its samples: a difference may be noise.
+/// Seconds that a reference of `spp` samples for both halves together takes, from one or two short
+/// renders with its options, by rising samples.
 double predict_reference_s(const std::vector<Pilot>& pilots, int spp);
 
 /// The reference of a sweep that goes on: `file`, if it is there and its pixels have the hash

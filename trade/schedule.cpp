@@ -122,11 +122,22 @@ void Sweep::count_what_is_missing() {
 
 CostModel::CostModel(double probe_wall_s, int probe_spp) {
   by_turn_["default"] = {std::max(probe_spp, 1), probe_wall_s};
+  default_wall_s_[std::max(probe_spp, 1)] = probe_wall_s;
 }
 
 void CostModel::add(const Configuration& configuration, double wall_s) {
+  const int spp = std::max(configuration.spp, 1);
   by_label_[configuration.label()] = wall_s;
-  by_turn_[configuration.turn.name()] = {std::max(configuration.spp, 1), wall_s};
+  by_turn_[configuration.turn.name()] = {spp, wall_s};
+  if (configuration.turn.is_default()) default_wall_s_[spp] = wall_s;
+}
+
+/// What the default takes with some samples over what it takes with others.
+double CostModel::growth(int from_spp, int to_spp) const {
+  const auto &first = *default_wall_s_.begin(), &last = *default_wall_s_.rbegin();
+  const LinearCost cost = LinearCost::from({first.first, first.second}, {last.first, last.second});
+  const double from_s = cost.of(from_spp);
+  return from_s > 0 ? cost.of(to_spp) / from_s : double(to_spp) / double(from_spp);
 }
 
 double CostModel::predict_s(const Configuration& configuration) const {
@@ -135,7 +146,7 @@ double CostModel::predict_s(const Configuration& configuration) const {
   auto known = by_turn_.find(configuration.turn.name());
   if (known == by_turn_.end()) known = by_turn_.find("default");
   const int spp = configuration.spp > 0 ? configuration.spp : known->second.spp;
-  return known->second.wall_s * double(spp) / double(known->second.spp);
+  return known->second.wall_s * growth(known->second.spp, spp);
 }
 
 std::vector<size_t> shuffled_order(size_t count, int round) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "trade/linear_cost.h"
 #include "trade/measurement.h"
 
 namespace tessera::trade {
@@ -34,8 +35,8 @@ struct SweepOutcome {
   bool cancelled = false;
 };
 
-/// Predicts how long a process takes: as long as it took, or as one of its turn took for its share
-/// of the samples, or the same of the default.
+/// Predicts how long a process takes: as long as it took, or as one of its turn took, or one of the
+/// default, times what the default takes longer for as many samples.
 class CostModel {
  public:
   CostModel(double probe_wall_s, int probe_spp);
@@ -43,12 +44,11 @@ class CostModel {
   double predict_s(const Configuration& configuration) const;
 
  private:
-  struct Known {
-    int spp;
-    double wall_s;
-  };
+  double growth(int from_spp, int to_spp) const;
+
   std::map<std::string, double> by_label_;
-  std::map<std::string, Known> by_turn_;
+  std::map<std::string, Pilot> by_turn_;
+  std::map<int, double> default_wall_s_;  ///< by samples per pixel
 };
 
 /// The order of a round: shuffled, the same way for the same round, so that what

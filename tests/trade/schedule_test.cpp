@@ -133,7 +133,8 @@ TEST_CASE("what takes longer than predicted is given up at the end, as if not st
   const std::vector<Configuration> all{configuration({}, 4), configuration({}, 16),
                                        configuration({"hider", "bbox"}, 4),
                                        configuration({"hider", "bbox"}, 64)};
-  machine.cost_s["hider=bbox spp=64"] = 1000;
+  machine.cost_s = {
+      {"spp=4", 0.25}, {"spp=16", 1}, {"hider=bbox spp=4", 0.25}, {"hider=bbox spp=64", 1000}};
   SweepSettings settings;
   settings.repeats = 1;
   settings.end_s = 50;
@@ -201,4 +202,8 @@ TEST_CASE("costs are predicted from what is nearest") {
   CHECK(costs.predict_s(all[3]) == Approx(12.0));
   CHECK(costs.predict_s(all[2]) == 3);
   CHECK(costs.predict_s(all[1]) == Approx(2.0));
+  // The default takes 1 s whatever its samples and 1/16 s for each: boxes take as many times that
+  // at 16 as at 4 samples.
+  costs.add(all[0], 1.25);
+  CHECK(costs.predict_s(all[3]) == Approx(3 * 2 / 1.25));
 }
