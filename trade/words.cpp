@@ -27,8 +27,11 @@ bool is_faster(const Judged& judged) {
          std::log(judged.comparison.time_ratio.value) < -std::log1p(judged.comparison.noise);
 }
 
-/// Whether more repeats might show that it is.
+/// Whether more repeats, or more samples, might show that it is: its time is of one run, or it took
+/// less time so far and has not come to the default's error.
 bool is_open(const Judged& judged) {
+  const Reading& ratio = judged.comparison.time_ratio;
+  if (ratio.known() && ratio.bound == Bound::at_least) return ratio.value < 1;
   return looks_faster(judged) && !judged.comparison.noise_known();
 }
 
@@ -120,12 +123,14 @@ std::string best_sentence(const WordsInput& input, const std::vector<Judged>& li
   const bool open = std::any_of(list.begin(), list.end(), is_open);
   if (best != list.end())
     return fmt::format("The knob that buys most here{} is {}: {}",
-                       open ? ", of what was timed more than once," : "", best->turn.knob,
+                       open ? ", of what is known well enough," : "", best->turn.knob,
                        time_sentence(input, *best));
   if (open)
-    return "Whether a knob but spp buys anything here cannot be said: values that reached the "
-           "default's error in less time were timed once, or the default was. More --repeats, or "
-           "more --budget, tell noise from gain.";
+    return "Whether a knob but spp buys anything here cannot be said: values that took less time "
+           "than "
+           "the default were timed once, or the default was, or they were not run with samples "
+           "enough "
+           "for its error. More --repeats or more --budget tell.";
   return "No knob but spp buys anything here: no value reaches the default's error in less time "
          "than noise explains.";
 }
