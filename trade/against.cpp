@@ -43,6 +43,12 @@ Json row_of(const std::string& name, const std::vector<CurvePoint>& curve,
           cell(c.error_ratio_ladder)};
 }
 
+/// Where the default is compared: at the pivot, or where it was run that is nearest.
+int compared_spp(const std::vector<CurvePoint>& defaults, int pivot_spp) {
+  if (defaults.empty()) return pivot_spp;
+  return int(compare_curves(defaults, defaults, double(pivot_spp)).pivot_spp);
+}
+
 Json columns() {
   return {{{"name", "case"}},
           {{"name", "frame_s"}, {"unit", "s"}},
@@ -56,8 +62,9 @@ Json columns() {
 }  // namespace
 
 Json against_table(const std::vector<Run>& runs, const std::vector<Baseline>& baselines,
-                   int pivot_spp, const std::vector<std::string>& missing) {
+                   int wanted_spp, const std::vector<std::string>& missing) {
   const std::vector<CurvePoint> defaults = curve_of(runs, Turn{});
+  const int pivot_spp = compared_spp(defaults, wanted_spp);
   Json rows = Json::array(), notes = Json::array();
   if (!defaults.empty()) rows.push_back(row_of("default", defaults, defaults, pivot_spp));
   for (const Baseline& baseline : baselines) {
@@ -82,6 +89,11 @@ Json against_table(const std::vector<Run>& runs, const std::vector<Baseline>& ba
   notes.push_back(
       "ladder: geometric mean over all points of the default that lie within the "
       "baseline's ladder.");
+  if (pivot_spp != wanted_spp)
+    notes.push_back(
+        fmt::format("The default has no run at {} samples that went well: {} are the "
+                    "nearest.",
+                    wanted_spp, pivot_spp));
   for (const std::string& reason : missing) notes.push_back(reason);
   return {{"title", "The default against baselines"},
           {"columns", columns()},

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "engine/command.h"
+#include "engine/settings_options.h"
 
 namespace tessera::trade {
 
@@ -40,8 +41,10 @@ std::string footer() {
          "Errors "
          "are\nof R, G and B against the reference; relMSE is the mean of (a - b)^2 / (b^2 + "
          "0.01).\ndocs/trade.md says how everything is measured and what the words mean.\n\n"
-         "Exit codes: 0 done; 1 something failed, or no run went well; 2 the command line was not\n"
-         "understood; 130 interrupted, what was finished is kept and --resume goes on.\n";
+         "Exit codes: 0 done, with what failed as a row of the table; 1 there is no table, or no "
+         "run in\n"
+         "it went well; 2 the command line was not understood; 130 interrupted, what was finished "
+         "is kept and --resume goes on.\n";
 }
 
 void add_what(CLI::App& app, TradeOptions& options, Spoken& spoken) {
@@ -134,8 +137,28 @@ void complete_common(const Spoken& spoken, TradeOptions& options) {
   options.common = std::move(common);
 }
 
+/// Throws Error unless the renderer understands every value of the knobs: a run of each would fail.
+void check_values(const std::vector<KnobChoice>& knobs) {
+  for (const KnobChoice& choice : knobs) {
+    if (choice.knob->name == "spp") continue;  // parse_ladder() checks it
+    for (const std::string& value : choice.values) {
+      CLI::App renderer;
+      Settings settings;
+      add_settings_options(renderer, settings);
+      std::vector<std::string> words = options_of({choice.knob->name, value});
+      std::reverse(words.begin(), words.end());  // as CLI11 takes them
+      try {
+        renderer.parse(words);
+      } catch (const CLI::ParseError& error) {
+        throw Error(fmt::format("--knobs: {}={}: {}", choice.knob->name, value, error.what()));
+      }
+    }
+  }
+}
+
 void understand(const Spoken& spoken, TradeOptions& options) {
   options.knobs = parse_knobs(spoken.knobs);
+  check_values(options.knobs);
   options.baselines = parse_baselines(spoken.baselines);
   options.ladder = parse_ladder(spoken.ladder);
   for (const KnobChoice& choice : options.knobs)

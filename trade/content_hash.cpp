@@ -18,47 +18,54 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_archive(const fs::path& path) {
-  return path.extension() == ".rib" || path.string().ends_with(".rib.gz");
+/// Whether a file may be read as RIB. ReadArchive takes any name; whatever else names a file in
+/// .rib (a delayed archive, a comment of an exporter's own) may mean one.
+bool is_archive(const std::string& request, const fs::path& path) {
+  return request == "ReadArchive" || path.extension() == ".rib" ||
+         path.string().ends_with(".rib.gz");
 }
 
-/// Follows the files of a scene, each once, in the order in which they are named.
+std::string identity_of(const fs::path& path) {
+  std::error_code ignored;
+  return fs::weakly_canonical(path, ignored).string();
+}
+
+/// Follows the files of a scene, each once, in the order in which they are named. A file that was
+/// named as something else first is followed when it turns out to be an archive.
 class SceneFiles {
  public:
   SceneFiles(const fs::path& scene, ContentHash& hash)
       : folder_(scene.parent_path()), hash_(hash) {}
 
   void add(const fs::path& path) {
-    std::error_code ignored;
-    if (!seen_.insert(fs::weakly_canonical(path, ignored).string()).second) return;
-    hash_.add_file(path.string());
+    if (seen_.insert(identity_of(path)).second) hash_.add_file(path.string());
   }
   void follow(const fs::path& path);
 
  private:
   void string_token(const std::string& request, const std::string& text, const fs::path& from);
-  fs::path find(const std::string& name, const fs::path& from) const;
+  std::vector<fs::path> find(const std::string& name, const fs::path& from) const;
 
   fs::path folder_;
   ContentHash& hash_;
   std::vector<fs::path> search_;
-  std::set<std::string> seen_;
+  std::set<std::string> seen_, followed_;
 };
 
-/// The file of a name; empty when there is none.
-fs::path SceneFiles::find(const std::string& name, const fs::path& from) const {
+/// The files that a name may stand for: which of several is taken is the business of who reads it.
+std::vector<fs::path> SceneFiles::find(const std::string& name, const fs::path& from) const {
   constexpr size_t longest_name = 4096;
   if (name.empty() || name.size() > longest_name) return {};
-  std::vector<fs::path> folders{from.parent_path(), folder_};
+  std::vector<fs::path> folders{from.parent_path(), folder_}, files;
   folders.insert(folders.end(), search_.begin(), search_.end());
   for (const fs::path& folder : search_) folders.push_back(folder_ / folder);
   folders.emplace_back();
   for (const fs::path& folder : folders) {
     std::error_code ignored;
     const fs::path path = folder / name;
-    if (fs::is_regular_file(path, ignored)) return path;
+    if (fs::is_regular_file(path, ignored)) files.push_back(path);
   }
-  return {};
+  return files;
 }
 
 void SceneFiles::string_token(const std::string& request, const std::string& text,
@@ -71,14 +78,14 @@ void SceneFiles::string_token(const std::string& request, const std::string& tex
       start = end + 1;
     }
   }
-  const fs::path file = find(text, from);
-  if (file.empty()) return;
-  const size_t known = seen_.size();
-  add(file);
-  if (seen_.size() > known && is_archive(file)) follow(file);
+  for (const fs::path& file : find(text, from)) {
+    add(file);
+    if (is_archive(request, file)) follow(file);
+  }
 }
 
 void SceneFiles::follow(const fs::path& path) {
+  if (!followed_.insert(identity_of(path)).second) return;
   try {
     Lexer lexer(ByteSource::from_file(path.string()));
     std::string request;

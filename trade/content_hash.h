@@ -31,11 +31,12 @@ class ContentHash {
 };
 
 /// What a scene is made of: the bytes of the scene file and of every file that a string in it names
-/// and that is there, found beside the scene file, in the folders of its searchpath options or as
-/// it stands; of archives (names in .rib or .rib.gz) likewise, so that textures, shadow maps and
-/// archives are covered. Not covered: names that shaders make up
-/// at run time (there are none today). Throws Error when the scene file
-/// cannot be read; a scene that is not RIB counts with its bytes alone.
+/// and that is there, found beside the file that names it, beside the scene file, in the folders of
+/// searchpath options or as it stands, in each of these places; of archives (what ReadArchive
+/// names, and names in .rib or .rib.gz) likewise, so that textures, shadow maps and archives of
+/// archives are covered. Not covered: names that shaders make up at run time (there are none
+/// today). Throws Error when a file cannot be read; a file that is not RIB counts with its bytes
+/// alone.
 std::string hash_scene(const std::string& scene);
 
 /// Of a file's bytes. Throws Error when it cannot be read.

@@ -16,6 +16,9 @@ double log_line(double x0, double y0, double x1, double y1, double x) {
   return y0 * std::exp(std::clamp(share, 0.0, 1.0) * std::log(y1 / y0));
 }
 
+/// The larger one; unknown when one is.
+double larger(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+
 Reading ratio(const Reading& reading, double over) {
   return {over > 0 ? reading.value / over : unknown, reading.bound, reading.spread};
 }
@@ -65,7 +68,7 @@ Reading time_to_reach(std::span<const CurvePoint> curve, double rel_mse) {
     const CurvePoint &a = curve[k - 1], &b = curve[k];
     if (b.rel_mse <= rel_mse)
       return {log_line(a.rel_mse, a.time_s, b.rel_mse, b.time_s, rel_mse), Bound::exact,
-              std::max(a.spread, b.spread)};
+              larger(a.spread, b.spread)};
   }
   return {last.time_s, Bound::at_least, last.spread};
 }

@@ -11,7 +11,7 @@ namespace tessera::trade {
 
 struct CurvePoint {
   double spp = 0, time_s = 0, rel_mse = 0;
-  double spread = 0;  ///< Run::spread() of its time
+  double spread = 0;  ///< Run::spread() of its time; NaN when that is unknown
 };
 
 /// A number read off a curve, or off the ratio of two. Past the ends of a ladder all that is known
@@ -21,7 +21,8 @@ enum class Bound { exact, at_most, at_least };
 struct Reading {
   double value = unknown;
   Bound bound = Bound::exact;
-  double spread = 0;  ///< largest, of the times of the steps that it was read from; relative
+  /// Largest, of the times of the steps that it was read from; relative. NaN when one is unknown.
+  double spread = 0;
 
   bool known() const { return value == value; }
 };
@@ -48,9 +49,12 @@ struct Comparison {
   Reading error_ratio;   ///< error after the other's time there, over the other's error
   /// The same of all points of the other whose error lies on this ladder: geometric means.
   Reading time_ratio_ladder, error_ratio_ladder;
-  double noise = 0;  ///< of a ratio of times, relative: root of the summed squares of both spreads
+  /// Of a ratio of times, relative: root of the summed squares of both spreads; NaN when one is
+  /// unknown, as of what was timed once.
+  double noise = 0;
 
-  /// Whether the ratio of times differs from 1 by no more than noise.
+  bool noise_known() const { return noise == noise; }
+  /// Whether the ratio of times differs from 1 by no more than noise; false when that is unknown.
   bool within_noise() const;
 };
 

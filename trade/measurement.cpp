@@ -1,6 +1,7 @@
 #include "trade/measurement.h"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -18,19 +19,12 @@ double number(const Json& json, const char* name) {
   return value.is_null() ? unknown : value.get<double>();
 }
 
-Run gather(const Configuration& configuration, const std::vector<const Measurement*>& parts) {
-  Run run;
-  run.configuration = configuration;
-  if (parts.empty()) return run;
-  run.measured = true;
-  run.result = *parts.front();
+/// The row of a configuration that went well at least once, from its good parts by rising round.
+void summarise(const std::vector<const Measurement*>& good, Run& run) {
+  run.result = *good.front();
   std::vector<double> wall_s, cpu_s;
-  for (const Measurement* part : parts) {
-    if (!part->ok) {
-      run.result = *part;
-      break;
-    }
-    if (part->pixels != parts.front()->pixels) {
+  for (const Measurement* part : good) {
+    if (part->pixels != good.front()->pixels) {
       run.result.ok = false;
       run.result.error = fmt::format(
           "repeat {} gave another image: the renderer is not deterministic here", part->round + 1);
@@ -40,10 +34,33 @@ Run gather(const Configuration& configuration, const std::vector<const Measureme
     cpu_s.push_back(part->cpu_s);
     run.result.peak_bytes = std::max(run.result.peak_bytes, part->peak_bytes);
   }
-  if (run.frame_s_all.empty() || !run.result.ok) return run;
+  if (!run.result.ok) return;
   run.result.frame_s = median(run.frame_s_all);
   run.result.wall_s = median(wall_s);
   run.result.cpu_s = median(cpu_s);
+}
+
+/// `parts`: by rising round, those of one round in the order in which they were run.
+Run gather(const Configuration& configuration, const std::vector<const Measurement*>& parts) {
+  Run run;
+  run.configuration = configuration;
+  if (parts.empty()) return run;
+  run.measured = true;
+  std::vector<const Measurement*> good;
+  std::set<int> good_rounds;
+  for (const Measurement* part : parts)
+    if (part->ok && good_rounds.insert(part->round).second) good.push_back(part);
+  // The errors are those of the first round.
+  if (good_rounds.count(0)) {
+    summarise(good, run);
+  } else {
+    run.result.error = "the repeat that measures its error is missing";
+  }
+  for (const Measurement* part : parts) {
+    if (part->ok || good_rounds.count(part->round)) continue;
+    run.failed_repeat = fmt::format("repeat {}: {}", part->round + 1, part->error);
+    if (!good_rounds.count(0)) run.result = *part;
+  }
   return run;
 }
 
@@ -96,7 +113,7 @@ Measurement Measurement::from_json(const Json& json) {
 }
 
 double Run::spread() const {
-  if (frame_s_all.size() < 2) return 0;
+  if (frame_s_all.size() < 2) return unknown;
   const auto [least, most] = std::minmax_element(frame_s_all.begin(), frame_s_all.end());
   return result.frame_s > 0 ? 0.5 * (*most - *least) / result.frame_s : 0;
 }
@@ -114,8 +131,9 @@ std::vector<Run> gather_runs(const std::vector<Configuration>& configurations,
     std::vector<const Measurement*> parts;
     for (const Measurement& measurement : measurements)
       if (measurement.label == configuration.label()) parts.push_back(&measurement);
-    std::sort(parts.begin(), parts.end(),
-              [](const Measurement* a, const Measurement* b) { return a->round < b->round; });
+    std::stable_sort(parts.begin(), parts.end(), [](const Measurement* a, const Measurement* b) {
+      return a->round < b->round;
+    });
     runs.push_back(gather(configuration, parts));
   }
   return runs;

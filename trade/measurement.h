@@ -40,19 +40,23 @@ struct Run {
   bool measured = false;  ///< at least one process ended
   Measurement result;     ///< counts and errors of the first, medians of times, largest memory
   std::vector<double> frame_s_all;
+  /// "repeat 2: what it said", of a repeat that failed and never went well; empty: there is none.
+  std::string failed_repeat;
   bool pareto = false;   ///< no other run is as good in time and error and better in one
   bool limited = false;  ///< its error is near that of the reference
 
   bool ok() const { return measured && result.ok; }
-  /// Half of what the frame times of the repeats span, over their median; 0 with fewer than two.
+  /// Half of what the frame times of the repeats span, over their median; unknown with fewer than
+  /// two.
   double spread() const;
 };
 
 /// Of at least one value. Of an even number, the mean of the two in the middle.
 double median(std::vector<double> values);
 
-/// One run for each configuration, in their order. Runs whose repeats differ in a bit are failed
-/// runs.
+/// One run for each configuration, in their order. Repeats that went well make it, whatever others
+/// did: a failure counts only where the first round, which measures the errors, never went well.
+/// Runs whose repeats differ in a bit are failed runs.
 std::vector<Run> gather_runs(const std::vector<Configuration>& configurations,
                              const std::vector<Measurement>& measurements);
 

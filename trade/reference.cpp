@@ -64,18 +64,52 @@ std::string cache_key(const Renderer& renderer, const ReferenceRequest& request,
   return hash.text();
 }
 
-/// One half. Adds its time to `frame_s`.
-Image render_half(const Renderer& renderer, const ReferenceRequest& request,
-                  std::vector<std::string> options, const char* seed, double& frame_s) {
+int half_of(int spp) { return std::max(spp / 2, 1); }
+
+/// Options of both halves.
+std::vector<std::string> half_options(const Renderer& renderer, int spp) {
+  std::vector<std::string> options = reference_options(renderer.common());
+  options.insert(options.end(), {"--spp", std::to_string(half_of(spp))});
+  return options;
+}
+
+/// Where the cache keeps a reference, whether or not it does.
+fs::path cached_file(const Renderer& renderer, const ReferenceRequest& request) {
+  const auto options = half_options(renderer, request.spp);
+  return fs::path(request.cache) / (cache_key(renderer, request, options) + ".exr");
+}
+
+struct Half {
+  Image image;
+  double frame_s = 0;
+};
+
+Half render_half(const Renderer& renderer, const ReferenceRequest& request, const char* seed) {
   const std::string file = (fs::path(request.folder) / "reference_half.exr").string();
+  std::vector<std::string> options = half_options(renderer, request.spp);
   options.insert(options.end(), {"--seed", seed});
-  const Rendered rendered = renderer.render(options, file, request.limit_s - frame_s);
+  const Rendered rendered = renderer.render(options, file, request.left_s());
   if (!rendered.failure.empty())
     throw Error(fmt::format("the reference could not be rendered: {}", rendered.failure));
-  frame_s += rendered.statistics.at("times_s").at("frame_s").get<double>();
-  Image image = read_exr(file);
+  Half half{read_exr(file), rendered.statistics.at("times_s").at("frame_s").get<double>()};
   fs::remove(file);
-  return image;
+  return half;
+}
+
+/// The first half: it is kept in `file` until there is a second, so that what interrupts that costs
+/// no more than the second.
+Half first_half(const Renderer& renderer, const ReferenceRequest& request,
+                const std::string& file) {
+  if (fs::exists(file)) {
+    Image image = read_exr(file);
+    const double frame_s = number(attribute(image, time_attribute));
+    request.say("one half of the reference is there already");
+    return {std::move(image), frame_s};
+  }
+  Half half = render_half(renderer, request, seeds[0]);
+  half.image.metadata[time_attribute] = fmt::format("{}", half.frame_s);
+  write_exr(file, half.image);
+  return half;
 }
 
 void check_same(const std::string& file, const std::string& what, const std::string& its,
@@ -92,9 +126,10 @@ std::string window_text(const PixelRect& window) {
 }  // namespace
 
 std::vector<std::string> reference_options(const std::vector<std::string>& common) {
-  const std::vector<std::pair<std::string, std::string>> accurate = {
-      {"--shading", "sample"}, {"--reconstruct", "filter"}, {"--dicing-rate", "0.25"},
-      {"--ray-dicing-rate", "1"}};
+  const std::vector<std::pair<std::string, std::string>> accurate = {{"--shading", "sample"},
+                                                                     {"--reconstruct", "filter"},
+                                                                     {"--dicing-rate", "0.25"},
+                                                                     {"--ray-dicing-rate", "1"}};
   std::vector<std::string> options;
   for (const auto& [name, value] : accurate)
     if (std::find(common.begin(), common.end(), name) == common.end())
@@ -125,34 +160,54 @@ MeanOfTwo mean_of_two(const Image& a, const Image& b) {
 }
 
 Reference make_reference(const Renderer& renderer, const ReferenceRequest& request) {
-  std::vector<std::string> options = reference_options(renderer.common());
-  options.insert(options.end(), {"--spp", std::to_string(std::max(request.spp / 2, 1))});
+  const std::vector<std::string> options = half_options(renderer, request.spp);
   std::error_code error;
   fs::create_directories(request.cache, error);
   if (error)
     throw Error(fmt::format("cannot keep references in {}: {}; --cache names another folder",
                             request.cache, error.message()));
-  const std::string file =
-      (fs::path(request.cache) / (cache_key(renderer, request, options) + ".exr")).string();
+  const std::string file = cached_file(renderer, request).string();
   Reference reference;
   if (fs::exists(file)) {
     reference = described(file, read_exr(file));
     reference.cached = true;
   } else {
     request.say(fmt::format("rendering the reference, twice {} samples per pixel: {}",
-                            std::max(request.spp / 2, 1), fmt::join(options, " ")));
-    double frame_s = 0;
-    const Image first = render_half(renderer, request, options, seeds[0], frame_s);
-    MeanOfTwo mean = mean_of_two(first, render_half(renderer, request, options, seeds[1], frame_s));
+                            half_of(request.spp), fmt::join(options, " ")));
+    const std::string half_file = fs::path(file).replace_extension(".half.exr").string();
+    const Half first = first_half(renderer, request, half_file);
+    const Half second = render_half(renderer, request, seeds[1]);
+    MeanOfTwo mean = mean_of_two(first.image, second.image);
     mean.image.metadata[scene_attribute] = request.scene_hash;
-    mean.image.metadata[spp_attribute] = std::to_string(2 * std::max(request.spp / 2, 1));
-    mean.image.metadata[time_attribute] = fmt::format("{}", frame_s);
+    mean.image.metadata[spp_attribute] = std::to_string(2 * half_of(request.spp));
+    mean.image.metadata[time_attribute] = fmt::format("{}", first.frame_s + second.frame_s);
     mean.image.metadata[error_attribute] = fmt::format("{}", mean.rel_mse);
     for (Image::Channel& channel : mean.image.channels) channel.type = PixelType::float32;
     write_exr(file, mean.image);
+    fs::remove(half_file, error);
     reference = described(file, mean.image);
   }
   reference.options = options;
+  return reference;
+}
+
+bool is_cached(const Renderer& renderer, const ReferenceRequest& request) {
+  return fs::exists(cached_file(renderer, request));
+}
+
+double predict_reference_s(const std::vector<Pilot>& pilots, int spp) {
+  return 2 * LinearCost::from(pilots.front(), pilots.back()).of(half_of(spp));
+}
+
+std::optional<Reference> kept_reference(const Renderer& renderer, const std::string& file,
+                                        const std::string& expected_hash) {
+  if (!fs::exists(file)) return std::nullopt;
+  const Image image = read_exr(file);
+  if (hash_pixels(image) != expected_hash) return std::nullopt;
+  Reference reference = described(file, image);
+  reference.cached = true;
+  // An image that was given says nothing of how it was made.
+  if (reference.spp > 0) reference.options = half_options(renderer, reference.spp);
   return reference;
 }
 

@@ -2,10 +2,12 @@
 /// The image that errors are measured against.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "images/image.h"
+#include "trade/linear_cost.h"
 #include "trade/measurement.h"
 #include "trade/renderer.h"
 
@@ -25,7 +27,7 @@ struct ReferenceRequest {
   std::string cache;   ///< folder of references; made when it is missing
   std::string folder;  ///< for files on the way
   std::string scene_hash;
-  double limit_s = 1e30;                        ///< for both halves
+  std::function<double()> left_s;               ///< seconds in which it has to be there
   std::function<void(const std::string&)> say;  ///< told what is being done
 };
 
@@ -38,8 +40,21 @@ std::vector<std::string> reference_options(const std::vector<std::string>& commo
 /// halves' difference tells its variance: a and b with the same expectation have
 /// E[(a - b)^2] / 4 = Var[(a + b) / 2]. That is its noise; a bias both share does not show. The
 /// cache's key is made of the scene's hash, the options, the renderer's bytes and its version.
-/// Throws Error when a render fails.
+/// Throws Error when a render fails; the first half, if it is finished, is kept in the cache for
+/// the next time.
 Reference make_reference(const Renderer& renderer, const ReferenceRequest& request);
+
+/// Whether make_reference() would find it in the cache.
+bool is_cached(const Renderer& renderer, const ReferenceRequest& request);
+
+/// Seconds that a reference of `spp` samples for both halves together takes, from one or two short
+/// renders with its options, by rising samples.
+double predict_reference_s(const std::vector<Pilot>& pilots, int spp);
+
+/// The reference of a sweep that goes on: `file`, if it is there and its pixels have the hash
+/// `expected_hash`.
+std::optional<Reference> kept_reference(const Renderer& renderer, const std::string& file,
+                                        const std::string& expected_hash);
 
 /// Takes a given image. Throws Error when it is not of this scene: another size or crop than
 /// `probe`, an image of the default; another scene hash, where it was made here; another scene

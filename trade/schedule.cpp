@@ -22,7 +22,9 @@ class Sweep {
         cancelled_(cancelled),
         costs_(settings.probe_wall_s, settings.probe_spp) {
     outcome_.measurements = before;
-    for (const Measurement& measurement : before) note(measurement);
+    // What failed may go well now: with more time, more room on the disc, another machine's memory.
+    for (const Measurement& measurement : before)
+      if (measurement.ok) note(measurement);
     for (const Configuration& configuration : configurations)
       for (const Measurement& measurement : before)
         if (measurement.ok && measurement.label == configuration.label())
@@ -84,19 +86,23 @@ bool Sweep::try_run(const Configuration& configuration, int round) {
   return true;
 }
 
-/// Chosen anew each time: predictions grow better with what was measured.
+/// Chosen anew each time: predictions grow better with what was measured. Among those that are
+/// nearly as cheap as the cheapest the shuffled order decides, so that what drifts with time does
+/// not go with any knob here either.
 void Sweep::cheapest_first() {
+  constexpr double nearly = 1.5;
   std::vector<const Configuration*> waiting;
-  for (const Configuration& configuration : configurations_)
-    if (wanted(configuration, 0)) waiting.push_back(&configuration);
+  for (const size_t i : shuffled_order(configurations_.size(), 0))
+    if (wanted(configurations_[i], 0)) waiting.push_back(&configurations_[i]);
   while (!waiting.empty()) {
-    const auto next = std::min_element(waiting.begin(), waiting.end(),
-                                       [this](const Configuration* a, const Configuration* b) {
-                                         return costs_.predict_s(*a) < costs_.predict_s(*b);
-                                       });
-    const Configuration* configuration = *next;
-    waiting.erase(next);
-    if (!try_run(*configuration, 0)) return;
+    std::vector<double> cost_s;
+    for (const Configuration* one : waiting) cost_s.push_back(costs_.predict_s(*one));
+    const double most_s = nearly * *std::min_element(cost_s.begin(), cost_s.end());
+    size_t next = 0;
+    while (!(cost_s[next] <= most_s)) ++next;
+    const Configuration& configuration = *waiting[next];
+    waiting.erase(waiting.begin() + std::ptrdiff_t(next));
+    if (!try_run(configuration, 0)) return;
   }
 }
 
@@ -116,11 +122,22 @@ void Sweep::count_what_is_missing() {
 
 CostModel::CostModel(double probe_wall_s, int probe_spp) {
   by_turn_["default"] = {std::max(probe_spp, 1), probe_wall_s};
+  default_wall_s_[std::max(probe_spp, 1)] = probe_wall_s;
 }
 
 void CostModel::add(const Configuration& configuration, double wall_s) {
+  const int spp = std::max(configuration.spp, 1);
   by_label_[configuration.label()] = wall_s;
-  by_turn_[configuration.turn.name()] = {std::max(configuration.spp, 1), wall_s};
+  by_turn_[configuration.turn.name()] = {spp, wall_s};
+  if (configuration.turn.is_default()) default_wall_s_[spp] = wall_s;
+}
+
+/// What the default takes with some samples over what it takes with others.
+double CostModel::growth(int from_spp, int to_spp) const {
+  const auto &first = *default_wall_s_.begin(), &last = *default_wall_s_.rbegin();
+  const LinearCost cost = LinearCost::from({first.first, first.second}, {last.first, last.second});
+  const double from_s = cost.of(from_spp);
+  return from_s > 0 ? cost.of(to_spp) / from_s : double(to_spp) / double(from_spp);
 }
 
 double CostModel::predict_s(const Configuration& configuration) const {
@@ -129,7 +146,7 @@ double CostModel::predict_s(const Configuration& configuration) const {
   auto known = by_turn_.find(configuration.turn.name());
   if (known == by_turn_.end()) known = by_turn_.find("default");
   const int spp = configuration.spp > 0 ? configuration.spp : known->second.spp;
-  return known->second.wall_s * double(spp) / double(known->second.spp);
+  return known->second.wall_s * growth(known->second.spp, spp);
 }
 
 std::vector<size_t> shuffled_order(size_t count, int round) {

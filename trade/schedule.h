@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "trade/linear_cost.h"
 #include "trade/measurement.h"
 
 namespace tessera::trade {
@@ -34,8 +35,8 @@ struct SweepOutcome {
   bool cancelled = false;
 };
 
-/// Predicts how long a process takes: as long as it took, or as one of its turn took for its share
-/// of the samples, or the same of the default.
+/// Predicts how long a process takes: as long as it took, or as one of its turn took, or one of the
+/// default, times what the default takes longer for as many samples.
 class CostModel {
  public:
   CostModel(double probe_wall_s, int probe_spp);
@@ -43,21 +44,22 @@ class CostModel {
   double predict_s(const Configuration& configuration) const;
 
  private:
-  struct Known {
-    int spp;
-    double wall_s;
-  };
+  double growth(int from_spp, int to_spp) const;
+
   std::map<std::string, double> by_label_;
-  std::map<std::string, Known> by_turn_;
+  std::map<std::string, Pilot> by_turn_;
+  std::map<int, double> default_wall_s_;  ///< by samples per pixel
 };
 
-/// The order of a round without a budget: shuffled, the same way for the same round, so that what
+/// The order of a round: shuffled, the same way for the same round, so that what
 /// drifts with time (heat, other programs) does not go with any knob.
 std::vector<size_t> shuffled_order(size_t count, int round);
 
 /// Round by round, each configuration once in each. With a budget the first round goes from what is
-/// predicted to be cheap to what is dear, and nothing is started that is predicted not to fit.
-/// Configurations that failed are not repeated, and what is in `before` is not run again.
+/// predicted to be cheap to what is dear, shuffled among what costs nearly the same, and nothing is
+/// started that is predicted not to fit.
+/// Configurations that failed are not repeated. What went well in `before` is not run again; what
+/// failed there is.
 SweepOutcome sweep(const std::vector<Configuration>& configurations, const SweepSettings& settings,
                    const std::vector<Measurement>& before, const Runner& runner, const Clock& clock,
                    const std::function<bool()>& cancelled);

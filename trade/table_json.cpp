@@ -62,6 +62,7 @@ Json run_json(const Run& run, const TradeTable& table) {
       {"options", run.configuration.options},
       {"settings", settings},
       {"ok", run.ok()},
+      {"not_run", !run.measured},
       {"error", run.measured ? r.error : std::string("not run")},
       {"frame_s", number(r.frame_s)},
       {"frame_s_all", all},

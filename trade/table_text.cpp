@@ -77,6 +77,11 @@ std::vector<const Run*> by_error(const std::vector<Run>& runs) {
   return order;
 }
 
+const char* state_of(const Run& run) {
+  if (!run.measured) return "not run";
+  return run.ok() ? "ok" : "failed";
+}
+
 std::string cell_text(const nlohmann::ordered_json& cell) {
   if (cell.is_null()) return "-";
   return cell.is_number() ? number(cell.get<double>(), 4) : cell.get<std::string>();
@@ -86,18 +91,19 @@ std::string cell_text(const nlohmann::ordered_json& cell) {
 
 std::string csv_of(const std::vector<Run>& runs) {
   std::string text =
-      "id,label,ok,error,frame_s,frame_s_spread,repeats,wall_s,cpu_s,peak_bytes,rays,shaded_points,"
+      "id,label,state,ok,error,frame_s,frame_s_spread,repeats,wall_s,cpu_s,peak_bytes,rays,shaded_"
+      "points,"
       "samples,ste,rmse,rel_mse,visible,pareto,limited_by_reference,options\n";
   for (const Run& run : runs) {
     const Measurement& r = run.result;
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                        run.configuration.id, quoted(run.configuration.label()), int(run.ok()),
-                        quoted(run.measured ? r.error : "not run"), csv_number(r.frame_s),
-                        csv_number(run.spread()), run.frame_s_all.size(), csv_number(r.wall_s),
-                        csv_number(r.cpu_s), r.peak_bytes, r.rays, r.shaded_points, r.samples,
-                        csv_number(r.ste), csv_number(r.rmse), csv_number(r.rel_mse),
-                        csv_number(r.visible), int(run.pareto), int(run.limited),
-                        quoted(fmt::format("{}", fmt::join(run.configuration.options, " "))));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                    run.configuration.id, quoted(run.configuration.label()), state_of(run),
+                    int(run.ok()), quoted(r.error), csv_number(r.frame_s), csv_number(run.spread()),
+                    run.frame_s_all.size(), csv_number(r.wall_s), csv_number(r.cpu_s), r.peak_bytes,
+                    r.rays, r.shaded_points, r.samples, csv_number(r.ste), csv_number(r.rmse),
+                    csv_number(r.rel_mse), csv_number(r.visible), int(run.pareto), int(run.limited),
+                    quoted(fmt::format("{}", fmt::join(run.configuration.options, " "))));
   }
   return text;
 }

@@ -14,6 +14,7 @@
 #include "trade/bench_table.h"
 #include "trade/conclusion.h"
 #include "trade/content_hash.h"
+#include "trade/find_reference.h"
 #include "trade/folder.h"
 #include "trade/heat_maps.h"
 #include "trade/ledger.h"
@@ -27,10 +28,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of a budget, the most that the reference may take.
-constexpr double reference_share = 1.0 / 3.0;
-/// Samples per pixel of the short reference that tells what a sample of it costs.
-constexpr int pilot_spp = 2;
+/// Of a budget, what the report may take: its heat maps, and within that the page itself.
+constexpr double report_share = 0.2, page_share = 0.05;
 
 void say(const std::string& line) { fmt::print(stderr, "{}\n", line); }
 
@@ -63,14 +62,13 @@ class Trade {
   void note_load();
   void probe();
   void list();
-  double reference_sample_s();
-  int reference_spp();
-  void find_reference();
+  void choose_reference();
   Identity identity() const;
   void read_before();
   Ledger open_ledger();
   void name_configurations(const std::vector<Measurement>& before);
   SweepOutcome measure_all(Ledger& ledger, const std::vector<Measurement>& before);
+  void map_costs();
 
   const TradeOptions& options_;
   const std::atomic<bool>& cancel_;
@@ -119,46 +117,17 @@ void Trade::list() {
   for (const std::string& note : table_.list.missing_baselines) say(note);
 }
 
-/// Seconds for each sample per pixel of a reference, from a short one.
-double Trade::reference_sample_s() {
-  std::vector<std::string> options = reference_options(options_.common);
-  options.insert(options.end(), {"--spp", std::to_string(pilot_spp)});
-  const Rendered rendered = renderer_.render(options, path("probe_reference.exr"), left_s());
-  std::error_code ignored;
-  fs::remove(path("probe_reference.exr"), ignored);
-  if (!rendered.failure.empty())
-    throw Error(fmt::format("the reference could not be rendered: {}", rendered.failure));
-  return rendered.process.wall_s / pilot_spp;
-}
-
-int Trade::reference_spp() {
-  if (options_.reference_spp) return *options_.reference_spp;
-  const int most = std::max(options_.ladder.back(), table_.list.pivot_spp);
-  int spp = 16 * most;
-  if (!options_.budget_s) return spp;
-  const double sample_s = reference_sample_s();
-  while (spp > 2 * pilot_spp && spp * sample_s > reference_share * *options_.budget_s) spp /= 2;
-  if (spp < 16 * most)
-    table_.list.notes.push_back(
-        fmt::format("the reference has {} samples per pixel rather than {}, to fit the budget", spp,
-                    16 * most));
-  return spp;
-}
-
-void Trade::find_reference() {
+void Trade::choose_reference() {
   Reference& reference = table_.reference;
-  if (!options_.reference.empty()) {
-    reference = take_reference(options_.reference, path("probe.exr"), table_.scene_hash);
-  } else {
-    ReferenceRequest request;
-    request.spp = reference_spp();
-    request.cache = options_.cache;
-    request.folder = options_.output;
-    request.scene_hash = table_.scene_hash;
-    request.limit_s = left_s();
-    request.say = say;
-    reference = make_reference(renderer_, request);
-  }
+  const ReferenceSearch search{options_,
+                               table_.scene_hash,
+                               16 * std::max(options_.ladder.back(), table_.list.pivot_spp),
+                               before_ ? before_->identity["reference"] : std::string(),
+                               [this] { return left_s(); },
+                               say};
+  const size_t known_notes = table_.list.notes.size();
+  reference = find_reference(renderer_, search, table_.list.notes);
+  for (size_t i = known_notes; i < table_.list.notes.size(); ++i) say(table_.list.notes[i]);
   reference_hash_ = hash_pixels(read_exr(reference.file));
   say(fmt::format("reference{}: {}, its own relMSE {}", reference.cached ? " (cached)" : "",
                   reference.file,
@@ -182,7 +151,10 @@ void Trade::read_before() {
   before_ = read_ledger(file);
   check_identity(file, before_->identity, identity());
   if (before_->torn) say(fmt::format("{}: the last line is torn and left out", file));
-  say(fmt::format("resuming after {} runs", before_->measurements.size()));
+  const auto& runs = before_->measurements;
+  const auto failed = std::count_if(runs.begin(), runs.end(), [](auto& run) { return !run.ok; });
+  say(fmt::format("resuming after {} runs{}", runs.size(),
+                  failed > 0 ? fmt::format("; {} that failed are tried again", failed) : ""));
 }
 
 Ledger Trade::open_ledger() {
@@ -229,12 +201,22 @@ SweepOutcome Trade::measure_all(Ledger& ledger, const std::vector<Measurement>& 
   };
   SweepSettings settings;
   settings.repeats = options_.repeats;
-  if (options_.budget_s) settings.end_s = *options_.budget_s;
+  if (options_.budget_s)
+    settings.end_s = *options_.budget_s * (options_.report.empty() ? 1 : 1 - report_share);
   settings.probe_wall_s = probe_wall_s_;
   settings.probe_spp = table_.list.scene_spp;
   return sweep(
       all, settings, before, runner, [this] { return elapsed_s(); },
       [this] { return cancel_.load(); });
+}
+
+void Trade::map_costs() {
+  const double page_s = options_.budget_s ? page_share * *options_.budget_s : 0;
+  HeatMaps maps = render_heat_maps(
+      renderer_, runs_to_map(table_.runs),
+      {path("runs"), [&] { return left_s() - page_s; }, [this] { return cancel_.load(); }});
+  table_.heat_maps = std::move(maps.made);
+  for (std::string& note : maps.notes) table_.list.notes.push_back(std::move(note));
 }
 
 int Trade::run() {
@@ -245,7 +227,7 @@ int Trade::run() {
   note_load();
   probe();
   list();
-  find_reference();
+  choose_reference();
   Ledger ledger = open_ledger();
   const std::vector<Measurement> before =
       before_ ? before_->measurements : std::vector<Measurement>();
@@ -253,9 +235,7 @@ int Trade::run() {
   const SweepOutcome outcome = measure_all(ledger, before);
   if (!busy_note_.empty()) table_.list.notes.push_back(busy_note_);
   conclude(options_, outcome, table_);
-  if (!options_.report.empty() && !outcome.cancelled)
-    table_.heat_maps = render_heat_maps(renderer_, runs_to_map(table_.runs), path("runs"),
-                                        [this] { return cancel_.load(); });
+  if (!options_.report.empty() && !outcome.cancelled) map_costs();
   write_results(options_, table_);
   if (outcome.cancelled || cancel_) {
     say("interrupted; --resume goes on");
@@ -273,7 +253,8 @@ int run_trade(const TradeOptions& options, const std::string& program,
   // Before anything is made: a scene that is not there leaves no folder behind.
   ContentHash().add_file(options.scene);
   for (const std::string& file : options.tables) read_bench_table(file);
-  prepare_folder(options.output, options.resume, options.fresh);
+  const FolderLock lock = prepare_folder(options.output, options.resume, options.fresh);
+  prepare_report(options);
   try {
     return Trade(options, program, cancel).run();
   } catch (const Error&) {

@@ -15,11 +15,24 @@ struct Judged {
   Comparison comparison;
 };
 
-/// Whether a turn surely reaches the default's error in less time.
-bool is_faster(const Judged& judged) {
+/// Whether a turn reached the default's error in less time, be it by chance.
+bool looks_faster(const Judged& judged) {
   const Reading& ratio = judged.comparison.time_ratio;
-  return ratio.known() && ratio.bound != Bound::at_least && ratio.value < 1 &&
-         std::log(ratio.value) < -std::log1p(judged.comparison.noise);
+  return ratio.known() && ratio.bound != Bound::at_least && ratio.value < 1;
+}
+
+/// Whether it surely does: not where nothing is known of the noise.
+bool is_faster(const Judged& judged) {
+  return looks_faster(judged) && judged.comparison.noise_known() &&
+         std::log(judged.comparison.time_ratio.value) < -std::log1p(judged.comparison.noise);
+}
+
+/// Whether more repeats, or more samples, might show that it is: its time is of one run, or it took
+/// less time so far and has not come to the default's error.
+bool is_open(const Judged& judged) {
+  const Reading& ratio = judged.comparison.time_ratio;
+  if (ratio.known() && ratio.bound == Bound::at_least) return ratio.value < 1;
+  return looks_faster(judged) && !judged.comparison.noise_known();
 }
 
 /// "0.71 of", "2.4 times", "at least 2 times": a share of the default's time, or a multiple.
@@ -55,8 +68,9 @@ std::string time_sentence(const WordsInput& input, const Judged& judged) {
   const std::string ladder = c.time_ratio_ladder.known() ? fmt::format(" ({} over the ladder)",
                                                                        text_of(c.time_ratio_ladder))
                                                          : "";
-  return fmt::format("{} reaches the default's error at {} samples in {} its time{}.", name,
-                     c.pivot_spp, share_of_time(time), ladder);
+  return fmt::format("{} {} the default's error at {} samples in {} its time{}{}.", name,
+                     c.noise_known() ? "reaches" : "reached", c.pivot_spp, share_of_time(time),
+                     ladder, c.noise_known() ? "" : ", timed once: that may be noise");
 }
 
 std::string samples_sentence(const std::vector<CurvePoint>& curve) {
@@ -102,15 +116,23 @@ std::vector<Judged> judge(const WordsInput& input, const std::vector<CurvePoint>
   return list;
 }
 
-/// The first sentence about knobs: the one that buys most.
+/// The first sentence about knobs: the one that buys most, if that can be said.
 std::string best_sentence(const WordsInput& input, const std::vector<Judged>& list) {
   if (list.empty()) return "";
   const auto best = std::find_if(list.begin(), list.end(), is_faster);
-  if (best == list.end())
-    return "No knob but spp buys anything here: no value reaches the default's error in less time "
-           "than noise explains.";
-  return fmt::format("The knob that buys most here is {}: {}", best->turn.knob,
-                     time_sentence(input, *best));
+  const bool open = std::any_of(list.begin(), list.end(), is_open);
+  if (best != list.end())
+    return fmt::format("The knob that buys most here{} is {}: {}",
+                       open ? ", of what is known well enough," : "", best->turn.knob,
+                       time_sentence(input, *best));
+  if (open)
+    return "Whether a knob but spp buys anything here cannot be said: values that took less time "
+           "than "
+           "the default were timed once, or the default was, or they were not run with samples "
+           "enough "
+           "for its error. More --repeats or more --budget tell.";
+  return "No knob but spp buys anything here: no value reaches the default's error in less time "
+         "than noise explains.";
 }
 
 std::string front_sentence(const std::vector<Run>& runs) {

@@ -20,6 +20,7 @@ namespace tessera {
 namespace {
 
 struct CompareOptions {
+  std::vector<std::string> channels;  // empty: all
   std::string a, b, difference;
   std::optional<double> fail_over_rmse;
 };
@@ -33,6 +34,20 @@ Image linear_colors(Image image, const std::string& path) {
   if (holds_exr(path) || !named_8_bit(path)) return image;
   for (Image::Channel& channel : image.channels)
     for (float& value : channel.values) value = linear_from_srgb(value);
+  return image;
+}
+
+/// The channels that are asked for, or all. Throws Error when one is missing.
+Image read_channels(const std::string& path, const std::vector<std::string>& names) {
+  Image image = read_image(path);
+  if (names.empty()) return image;
+  std::vector<Image::Channel> chosen;
+  for (const std::string& name : names) {
+    const Image::Channel* channel = image.find_channel(name);
+    if (!channel) throw Error(fmt::format("{}: no channel {}", path, name));
+    chosen.push_back(*channel);
+  }
+  image.channels = std::move(chosen);
   return image;
 }
 
@@ -84,7 +99,8 @@ int run(const CompareOptions& options) {
     check_writable(options.difference);
     check_format(options.difference);
   }
-  const Image a = read_image(options.a), b = read_image(options.b);
+  const Image a = read_channels(options.a, options.channels);
+  const Image b = read_channels(options.b, options.channels);
   const ImageDifference difference = compare_images(a, b);
   print(difference);
   if (have_colors(a, b)) {
@@ -108,6 +124,11 @@ std::function<int()> set_up(CLI::App& app) {
   app.add_option("--fail-over", options->fail_over_rmse, "exit with 1 when the RMSE is larger")
       ->check(CLI::NonNegativeNumber)
       ->type_name("RMSE");
+  app.add_option("--channels", options->channels,
+                 "channels to compare, separated by commas, as R,G,B; depths beside colours drown "
+                 "them. Default: all that both have")
+      ->delimiter(',')
+      ->type_name("LIST");
   app.add_option("--diff", options->difference, "image of the absolute differences to write")
       ->type_name("OUT.png");
   app.footer(

@@ -39,6 +39,33 @@ TEST_CASE("compare measures and exits past the limit") {
   CHECK_THAT(run_tessera({"compare", "a.exr", "a.exr"}, folder).out, Contains("PSNR     inf"));
 }
 
+TEST_CASE("compare measures the channels that it is asked for") {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, float grey, float depth) {
+    Image image(4, 3);
+    for (const char* channel : {"R", "G", "B"})
+      image.add_channel(channel, PixelType::float32, grey);
+    image.add_channel("z", PixelType::float32, depth);
+    write_exr(folder / name, image);
+  };
+  write("a.exr", 0.75f, 1e20f);
+  write("b.exr", 0.5f, 1);
+  const auto compare = [&](const std::vector<std::string>& channels) {
+    std::vector<std::string> arguments{"compare", "a.exr", "b.exr"};
+    arguments.insert(arguments.end(), channels.begin(), channels.end());
+    return run_tessera(arguments, folder);
+  };
+  CHECK_THAT(compare({}).out, Contains("channel z"));
+  // 0.25^2 / (0.5^2 + 0.01)
+  CHECK_THAT(compare({"--channels", "R,G,B"}).out,
+             Contains("RMSE     0.25\n") && Contains("relMSE   0.240385\n") &&
+                 Contains("visible") && !Contains("channel z"));
+  CHECK_THAT(compare({"--channels", "z"}).out, Contains("channel z") && !Contains("visible"));
+  const ProgramResult missing = compare({"--channels", "R,Q"});
+  CHECK(missing.exit_code == 1);
+  CHECK_THAT(missing.err, Contains("a.exr: no channel Q"));
+}
+
 TEST_CASE("compare tells the share of pixels that look different") {
   const TemporaryFolder folder;
   write_grey(folder / "grey.exr", 0.5f);

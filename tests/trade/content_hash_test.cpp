@@ -50,6 +50,27 @@ TEST_CASE("a scene's hash changes with its file, its archives and its textures, 
   CHECK_THROWS_AS(hash_scene(folder / "none.rib"), Error);
 }
 
+TEST_CASE("archives are followed whatever they are called, and named as something else first") {
+  const TestFolder folder;
+  const std::string scene = folder.write("s.rib",
+                                         "Option \"user\" \"string made_of\" [\"a.inc\"]\n"
+                                         "WorldBegin ReadArchive \"a.inc\"\nWorldEnd\n");
+  folder.write("a.inc", "ReadArchive \"parts/b\"\n");
+  folder.write("parts/b", "Surface \"plastic\" \"string texturename\" [\"wood.tex\"]\n");
+  folder.write("parts/wood.tex", "wood");
+  std::set<std::string> hashes{hash_scene(scene)};
+  folder.write("parts/wood.tex", "pine");
+  CHECK(hashes.insert(hash_scene(scene)).second);
+  folder.write("parts/b", text_in(folder / "parts/b") + " ");
+  CHECK(hashes.insert(hash_scene(scene)).second);
+  // One that is found in another place as well may be the one that is read.
+  folder.write("wood.tex", "oak");
+  CHECK(hashes.insert(hash_scene(scene)).second);
+  folder.write("wood.tex", "elm");
+  CHECK(hashes.insert(hash_scene(scene)).second);
+  CHECK(hashes.count(hash_scene(scene)) == 1);
+}
+
 TEST_CASE("archives that name each other end, and what is not RIB has a hash") {
   const TestFolder folder;
   folder.write("a.rib", "ReadArchive \"b.rib\"");

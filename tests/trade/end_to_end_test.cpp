@@ -102,10 +102,10 @@ TEST_CASE("a sweep of two knobs leaves its table, and goes on from half a ledger
 
 TEST_CASE("a run that fails is a row, and the others go on") {
   const Sweep sweep;
-  const ProcessResult result = sweep.run({"--knobs", "spp,hider=nonsense"});
+  const ProcessResult result = sweep.run({"--knobs", "spp,shading=aas:nonsense=1"});
   INFO(result.output);
   CHECK(result.exit_code == 0);
-  CHECK_THAT(result.output, Contains("failed: hider=nonsense spp=1") && Contains("no hider"));
+  CHECK_THAT(result.output, Contains("failed: shading=aas:nonsense=1 spp=1: "));
 }
 
 TEST_CASE("what cannot be swept is said with the renderer's exit codes") {
@@ -119,10 +119,18 @@ TEST_CASE("what cannot be swept is said with the renderer's exit codes") {
   CHECK(run({}).exit_code == 2);
   CHECK(run({"s.rib", "--budget", "0"}).exit_code == 2);
   CHECK(run({"s.rib", "--knobs", "colour"}).exit_code == 2);
+  const ProcessResult unknown = run({"s.rib", "--knobs", "shading=ds,hider=shear:foo"});
+  CHECK(unknown.exit_code == 2);
+  CHECK_THAT(unknown.output, Contains("hider=foo") && Contains("bbox"));
+  CHECK(run({"s.rib", "--knobs", "dicing-rate=1e29"}).exit_code == 2);
   const ProcessResult missing = run({folder / "none.rib", "-o", folder / "out"});
   CHECK(missing.exit_code == 1);
   CHECK_THAT(missing.output, Contains("none.rib"));
   CHECK_FALSE(std::filesystem::exists(folder / "out"));
   const std::string broken = folder.write("broken.rib", "Sphere 1");
   CHECK_THAT(run({broken, "-o", folder / "out"}).output, Contains("cannot be rendered"));
+  // Before the scene is rendered.
+  const std::string file = folder.write("file", "");
+  CHECK_THAT(run({broken, "-o", folder / "out", "--report", file + "/r"}).output,
+             Contains("--report: cannot write"));
 }

@@ -103,20 +103,59 @@ TEST_CASE("repeats make one run: medians of times, and a failed one when a bit d
   CHECK_FALSE(gather_runs(all, {})[0].measured);
 }
 
+TEST_CASE(
+    "a repeat that failed leaves the good ones their row, and one that went well replaces it") {
+  const std::vector<Configuration> all{configuration({}, 4)};
+  std::vector<Measurement> parts{measurement("spp=4", 0, 2, 0.5), measurement("spp=4", 1, 7, 0.5),
+                                 measurement("spp=4", 2, 4, 0.5)};
+  parts[1].ok = false;
+  parts[1].error = "no room";
+  Run run = gather_runs(all, parts)[0];
+  CHECK(run.ok());
+  CHECK(run.frame_s_all == std::vector<double>{2, 4});
+  CHECK(run.result.frame_s == 3);
+  CHECK(run.failed_repeat == "repeat 2: no room");
+  parts.push_back(measurement("spp=4", 1, 3.5, 0.5));
+  run = gather_runs(all, parts)[0];
+  CHECK(run.frame_s_all == std::vector<double>{2, 3.5, 4});
+  CHECK(run.failed_repeat.empty());
+  // Without the first round there is no error to give.
+  parts[0].ok = false;
+  parts[0].error = "too slow";
+  run = gather_runs(all, parts)[0];
+  CHECK_FALSE(run.ok());
+  CHECK(run.result.error == "too slow");
+}
+
 TEST_CASE("a folder with runs is kept unless it is said otherwise, and what is no sweep is kept") {
   const TestFolder folder;
   const std::string output = folder / "deep/out";
-  prepare_folder(output, false, false);
+  (void)prepare_folder(output, false, false);
   const std::string image = folder.write("deep/out/runs/0001.exr", "image");
-  prepare_folder(output, false, true);
+  (void)prepare_folder(output, false, true);
   CHECK(text_in(image) == "image");
   folder.write("deep/out/runs.jsonl", "{}\n");
-  CHECK_THROWS_WITH(prepare_folder(output, false, false), Contains("--resume"));
-  prepare_folder(output, true, false);
+  CHECK_THROWS_WITH((void)prepare_folder(output, false, false), Contains("--resume"));
+  (void)prepare_folder(output, true, false);
   CHECK(text_in(image) == "image");
-  prepare_folder(output, false, true);
+  (void)prepare_folder(output, false, true);
   CHECK_FALSE(std::filesystem::exists(image));
   CHECK_FALSE(std::filesystem::exists(folder / "deep/out/runs.jsonl"));
   CHECK(std::filesystem::is_directory(folder / "deep/out/runs"));
-  CHECK_THROWS_WITH(prepare_folder(folder.write("file", ""), false, false), Contains("no folder"));
+  CHECK_THROWS_WITH((void)prepare_folder(folder.write("file", ""), false, false),
+                    Contains("no folder"));
+}
+
+TEST_CASE("a folder is one sweep's at a time, and free when that ends") {
+  const TestFolder folder;
+  {
+    const FolderLock lock = prepare_folder(folder / "out", false, false);
+    CHECK_THROWS_WITH((void)prepare_folder(folder / "out", true, false), Contains("another sweep"));
+    // Nor does it forget what the other is writing.
+    folder.write("out/runs.jsonl", "{}\n");
+    CHECK_THROWS_WITH((void)prepare_folder(folder / "out", false, true), Contains("another sweep"));
+    CHECK(std::filesystem::exists(folder / "out/runs.jsonl"));
+    CHECK_NOTHROW((void)prepare_folder(folder / "elsewhere", false, false));
+  }
+  CHECK_NOTHROW((void)prepare_folder(folder / "out", true, false));
 }

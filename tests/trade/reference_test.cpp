@@ -1,5 +1,7 @@
 // The reference's own error, and references of other scenes.
 
+#include <atomic>
+#include <filesystem>
 #include <random>
 
 #include <catch2/catch.hpp>
@@ -7,6 +9,7 @@
 #include "base/error.h"
 #include "images/exr.h"
 #include "tests/trade/trade_fixtures.h"
+#include "trade/content_hash.h"
 #include "trade/measure.h"
 #include "trade/process.h"
 #include "trade/reference.h"
@@ -40,6 +43,58 @@ TEST_CASE("two halves tell the error of their mean") {
   const double expected = s * s / 2 / 0.26;
   CHECK(mean.rel_mse == Approx(expected).epsilon(0.03));
   CHECK(error_of(mean.image, grey(128, 128, 0.5f)).rel_mse == Approx(expected).epsilon(0.03));
+}
+
+TEST_CASE("what a reference takes is predicted from what its halves take whatever their samples") {
+  // A half of n samples takes 0.5 s and 0.02 s for each.
+  const std::vector<Pilot> pilots{{2, 0.54}, {8, 0.66}};
+  CHECK(predict_reference_s(pilots, 256) == Approx(2 * (0.5 + 128 * 0.02)));
+  CHECK(predict_reference_s(pilots, 1) == Approx(2 * (0.5 + 0.02)));
+  // From one pilot all is for samples; a difference that is noise does not make samples free.
+  CHECK(predict_reference_s({{2, 0.54}}, 256) == Approx(128 * 0.54));
+  CHECK(predict_reference_s({{2, 0.7}, {8, 0.64}}, 256) == Approx(2 * (0.576 + 128 * 0.008)));
+  // Nor more expensive than all of the time.
+  CHECK(predict_reference_s({{2, 0.1}, {8, 0.64}}, 256) == Approx(2 * 128 * 0.08));
+}
+
+TEST_CASE("an interrupted reference keeps its first half, and another takes it from there") {
+  const TestFolder folder;
+  // A renderer that copies an image made for its seed, and has no time for the second half at
+  // first.
+  write_exr(folder / "1013904223", grey(4, 2, 0.25f));
+  const std::string program =
+      folder.write("renderer",
+                   "#!/bin/sh\ncase $* in *--help*|*--version*) exit 0;; esac\n"
+                   "for seed in $*; do :; done\necho $seed >> " +
+                       (folder / "log") + "\ncp " + (folder / "$seed") +
+                       " $4 && echo '{\"times_s\":{\"frame_s\":2}}' > $6\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  const std::atomic<bool> cancel = false;
+  const Renderer renderer(program, "s.rib", {}, 60, &cancel);
+  ReferenceRequest request;
+  request.spp = 8;
+  request.cache = folder / "cache";
+  request.folder = folder / "";
+  request.left_s = [] { return 60.0; };
+  request.say = [](const std::string&) {};
+  CHECK_THROWS_AS(make_reference(renderer, request), Error);
+  CHECK_FALSE(is_cached(renderer, request));
+  write_exr(folder / "1664525", grey(4, 2, 0.75f));
+  const Reference reference = make_reference(renderer, request);
+  CHECK(text_in(folder / "log") == "1013904223\n1664525\n1664525\n");
+  CHECK(read_exr(reference.file).channels[0].values[0] == 0.5f);
+  CHECK(reference.frame_s == 4);
+  CHECK(reference.spp == 8);
+  CHECK(is_cached(renderer, request));
+  // Nothing but the reference is left.
+  CHECK(std::distance(std::filesystem::directory_iterator(folder / "cache"), {}) == 1);
+
+  const std::string hash = hash_pixels(read_exr(reference.file));
+  const auto kept = kept_reference(renderer, reference.file, hash);
+  REQUIRE(kept);
+  CHECK(kept->options == reference.options);
+  CHECK_FALSE(kept_reference(renderer, reference.file, "0123"));
+  CHECK_FALSE(kept_reference(renderer, folder / "none", hash));
 }
 
 TEST_CASE("a given reference has to be of the scene") {

@@ -66,6 +66,38 @@ TEST_CASE("differences within the noise of repeats are called that") {
   CHECK_THAT(words, Contains("within noise: 0.9 of its time, known to 14 %"));
 }
 
+TEST_CASE("no verdict rests on runs that were timed once") {
+  std::vector<Run> runs = default_runs();
+  add_runs(runs, shear, 0.343, 1);
+  add_runs(runs, coarse, 0.9, 1);
+  const auto time_once = [&runs](const Turn& turn) {
+    for (Run& run : runs)
+      if (run.configuration.turn == turn) run.frame_s_all.resize(1);
+  };
+  time_once(shear);
+  std::string words = words_of(runs, {shear, coarse});
+  CHECK_THAT(words, Catch::StartsWith("The knob that buys most here, of what is known well "
+                                      "enough, is shading-rate: shading-rate=4 reaches"));
+  CHECK_THAT(words, Contains("hider=shear reached the default's error at 16 samples in 0.343 of "
+                             "its time (0.343 over the ladder), timed once: that may be noise."));
+  // The default's own time is a part of every ratio.
+  time_once({});
+  words = words_of(runs, {shear, coarse});
+  CHECK_THAT(words, Catch::StartsWith("Whether a knob but spp buys anything here cannot be said"));
+  CHECK_THAT(words, !Contains("buys most"));
+  // Cheaper so far, but nothing says what its error takes.
+  runs = default_runs();
+  runs.push_back(run(shear, 4, 3, 0.25));
+  words = words_of(runs, {shear});
+  CHECK_THAT(words, Catch::StartsWith("Whether a knob but spp buys anything here cannot be said"));
+  // What is slower however it was timed: nothing is claimed to be fast.
+  runs = default_runs();
+  add_runs(runs, shear, 2, 1);
+  time_once(shear);
+  words = words_of(runs, {shear});
+  CHECK_THAT(words, Catch::StartsWith("No knob but spp buys anything here"));
+}
+
 TEST_CASE("beyond the ladder bounds are said") {
   std::vector<Run> runs = default_runs();
   add_runs(runs, coarse, 0.5, 100);
