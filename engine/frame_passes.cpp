@@ -161,6 +161,7 @@ PassResult FramePasses::render(const SampleAllocation& allocation, uint32_t seed
 
 PassResult FramePasses::render(const Samples& samples) {
   PassResult result;
+  const double diced_s = statistics_.dice_s();
   ReconstructionSettings reconstruction =
       reconstruction_settings(plan_, buckets_, camera_, groups_, scene_.options.exposure_gain,
                               several_ ? 1.0f : scene_.options.exposure_gamma, threads_);
@@ -190,6 +191,8 @@ PassResult FramePasses::render(const Samples& samples) {
     result.complete = queue.complete();
   }
   result.image = film->finish();
+  result.filter_s = film->filter_s();
+  result.dice_s = (statistics_.dice_s() - diced_s) / threads_;
   if (plain) result.plain = plain->finish();
   statistics_.add(*film);
   return result;

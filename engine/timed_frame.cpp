@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,13 @@ Image colours_of(const Image& image) {
     if (channel.name == "R" || channel.name == "G" || channel.name == "B")
       colours.channels.push_back(channel);
   return colours;
+}
+
+/// Of all threads of the program.
+double core_seconds() {
+  timespec time{};
+  if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time) != 0) return 0;
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
 /// relMSE of R, G and B; 0 where there are none.
@@ -58,16 +66,18 @@ class TimedFrame {
   }
   std::optional<int> next() {
     const size_t done = rendered_.size();
-    if (target_.time_s) return planner_.next({rendered_.back(), last_pass_s_, passes_.elapsed_s()});
+    if (target_.time_s) return planner_.next(last_pass_);
     return done < target_.passes.size() ? std::optional(target_.passes[done]) : std::nullopt;
   }
 
   /// False when it was cancelled: the passes before make the image, if there are any.
   bool add_pass(int samples) {
-    const double start_s = passes_.elapsed_s();
+    const double start_s = passes_.elapsed_s(), start_core_s = core_seconds();
     PassResult pass = passes_.render(
         samples, hash_combine(hash_combine(settings_.seed, pass_seed), uint32_t(rendered_.size())));
-    last_pass_s_ = passes_.elapsed_s() - start_s;
+    const double end_s = passes_.elapsed_s();
+    last_pass_ = {samples, end_s - start_s, end_s,
+                  (core_seconds() - start_core_s) / passes_.threads(), pass.filter_s, pass.dice_s};
     complete_ = pass.complete;
     if (!complete_ && samples_ > 0) return false;
     rendered_.push_back(samples);
@@ -79,7 +89,7 @@ class TimedFrame {
     if (samples_ > 0)
       single_error_squared_ = difference_squared(frame_.image, pass.image) /
                               (1.0 / double(samples_) + 1.0 / double(samples));
-    if (replaces_what_was_before(samples, samples_)) {
+    if (replaces_what_was_before(samples, samples_, passes_.plan().filters_distribution())) {
       frame_ = std::move(pass), samples_ = samples;
       return;
     }
@@ -89,6 +99,12 @@ class TimedFrame {
   }
 
   void warn(Diagnostics& diagnostics) const {
+    if (planner_.samples_spent())
+      diagnostics.warn_once(
+          "time target",
+          fmt::format("the frame came to the limit of {:.0f} samples a pixel in {:.3g} s of {:.3g} "
+                      "s; --max-spp sets the limit",
+                      target_.max_samples, passes_.elapsed_s(), *target_.time_s));
     if (passes_.elapsed_s() <= late * *target_.time_s) return;
     diagnostics.warn_once("time target",
                           fmt::format("the frame took {:.3g} s rather than {:.3g} s, with {} "
@@ -117,7 +133,7 @@ class TimedFrame {
   int samples_ = 0;            ///< of the passes that make the image
   std::vector<int> rendered_;  ///< samples of every pass
   bool complete_ = true;
-  double last_pass_s_ = 0;
+  TimedPass last_pass_;
   /// What one sample a pixel would have, if errors fell with the root of their number: images with
   /// a and b samples differ by 1 / a + 1 / b of it.
   double single_error_squared_ = 0;
