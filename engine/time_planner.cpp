@@ -5,23 +5,30 @@
 namespace tessera {
 namespace {
 
-/// Shares of the time left that the second and third pass are meant to take. The third, and others
-/// until it is sure what samples cost, may take up to `most_pilot_share` for `pilot_growth` times
-/// the samples of the one before: fewer tell nothing new.
-constexpr double second_share = 0.015, third_share = 0.06, most_pilot_share = 0.25;
+/// Share of the time left that a pass takes which is to tell what passes cost, and the least that
+/// tells it. Samples are cheaper where there are many: vectors of them are filled.
+constexpr double pilot_share = 0.06, telling_share = 0.03;
+constexpr int telling_samples = 16;
+
+/// It has at least `pilot_growth` times the samples of the one before, for fewer tell nothing new,
+/// if they take no more than a share of the time left. The second pass may take more, as its
+/// samples are far cheaper than the first lets one expect.
+constexpr double most_pilot_share = 0.15, most_second_share = 0.5;
 constexpr int pilot_growth = 4;
 
 /// Cost is fitted to two passes of which one has at least this many times the samples of the other.
 constexpr double fitted_growth = 2;
 
-/// Share of a short pass that counts when a longer one is compared with it: the second may still
-/// shade what the first did not see, and short passes are measured badly. Samples then come out
-/// dearer rather than cheaper.
+/// Share of a short pass that counts when a longer one is compared with it: it may have shaded what
+/// the other found ready, and short passes are measured badly. Samples then come out dearer rather
+/// than cheaper.
 constexpr double short_pass_share = 0.8;
 
-/// Of what a sample costs if nothing but the filter is fixed: the least that it is taken for, and
-/// the least that one can be sure of. After `sure_passes` nothing further is tried.
-constexpr double least_sample_share = 0.2, sure_sample_share = 0.8;
+/// Of what a sample costs if nothing but the filter and dicing are fixed: the least that it is taken
+/// for, by a pass of few samples and of `telling_samples`, and the least that one can be sure of.
+/// What looks fixed from few samples is mostly vectors that they do not fill. After `sure_passes`
+/// nothing further is tried.
+constexpr double least_sample_share = 0.5, least_telling_share = 0.9, sure_sample_share = 0.8;
 constexpr size_t sure_passes = 4;
 
 /// Share of its seconds that a pass has the cores for when the machine has nothing else to do. The
@@ -30,10 +37,10 @@ constexpr double quiet_cores = 0.75;
 
 /// Shares of the time left that a large pass takes: where nothing else runs, and where something
 /// does and there is time to make up for it.
-constexpr double quiet_share = 0.95, busy_share = 0.6;
+constexpr double quiet_share = 0.95, busy_share = 0.75;
 
 /// Share of the whole time below which a pass takes all that is left though the machine is busy.
-constexpr double last_of_time = 0.45;
+constexpr double last_of_time = 0.35;
 
 /// Share of the time asked for, and of the samples that there are, below which another pass is not
 /// worth it.
@@ -59,7 +66,7 @@ bool replaces_what_was_before(int samples, int before, bool filtered) {
 }
 
 TimePlanner::Cost TimePlanner::cost() const {
-  const auto warm = passes_.begin() + (passes_.size() > 1);
+  const auto warm = passes_.begin() + (passes_.size() > 2);
   const auto by_samples = [](const TimedPass& a, const TimedPass& b) {
     return a.samples < b.samples;
   };
@@ -74,9 +81,12 @@ TimePlanner::Cost TimePlanner::cost() const {
   const double few_s = core_s(few) - part_core_s(few, few.filter_s + few.dice_s);
   const double slope_s = (core_s(many) - known_s - short_pass_share * few_s) /
                          double(many.samples - few.samples);
-  const double sample_s = std::clamp(slope_s, least_sample_share * most_sample_s, most_sample_s);
-  return {core_s(many) - sample_s * many.samples, sample_s,
-          sample_s >= sure_sample_share * most_sample_s || passes_.size() >= sure_passes};
+  const double least = many.samples >= telling_samples ? least_telling_share : least_sample_share;
+  const double sample_s = std::clamp(slope_s, least * most_sample_s, most_sample_s);
+  const bool sure = sample_s >= sure_sample_share * most_sample_s || passes_.size() >= sure_passes;
+  // The first pass may have shaded more than its share: it says too little of one that follows.
+  if (!sure && passes_.size() == 2) return {fixed_s, most_sample_s, false};
+  return {core_s(many) - sample_s * many.samples, sample_s, sure};
 }
 
 /// Of the last two passes, without the first where there are others.
@@ -94,11 +104,15 @@ double TimePlanner::affordable(double seconds, const Cost& cost) const {
 
 double TimePlanner::wanted_samples(double left_s, const Cost& cost) const {
   const TimedPass& last = passes_.back();
-  if (passes_.size() == 1) return std::max(affordable(second_share * left_s, cost), double(unit_));
-  if (!cost.sure) {
-    const double telling = pilot_growth * double(last.samples);
-    if (telling <= affordable(most_pilot_share * left_s, cost))
-      return std::max(telling, affordable(third_share * left_s, cost));
+  const bool telling =
+      passes_.size() >= sure_passes ||
+      (last.samples >= telling_samples && last.seconds >= telling_share * left_s);
+  if (!cost.sure || !telling) {
+    const double samples = pilot_growth * double(last.samples);
+    const double share = passes_.size() == 1 ? most_second_share : most_pilot_share;
+    if (samples <= affordable(share * left_s, cost))
+      return std::max(samples, affordable(pilot_share * left_s, cost));
+    if (passes_.size() == 1) return unit_;
   }
   const bool quiet = cores_had() >= quiet_cores || left_s < last_of_time * time_s_;
   return affordable((quiet ? quiet_share : busy_share) * left_s, cost);

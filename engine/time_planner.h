@@ -23,10 +23,10 @@ struct TimedPass {
 /// that are placed together are better stratified, and better filtered, than as many in two passes.
 ///
 /// A pass is taken to cost a + b * samples seconds of a core, whatever else the machine is doing.
-/// The first, with the fewest samples there are, dices and shades what the others find ready, so
-/// it only bounds b. Those after it tell both. The cores that passes had lately tell how long that
-/// takes. Where threads waited for cores the large pass becomes two, the second by what the first
-/// has told.
+/// Each pass bounds b; two of very different samples tell both. The first, with the fewest samples
+/// there are, shades what the others find ready, so a third may be needed to be sure. The cores
+/// that passes had lately tell how long it takes. Where threads waited for cores, some of the time
+/// is kept for another large pass, by what the first has told.
 class TimePlanner {
  public:
   /// `reserve_s`: what is left to do after the last pass. Passes have multiples of `unit` samples a
@@ -44,7 +44,7 @@ class TimePlanner {
   /// Core seconds of a pass.
   struct Cost {
     double fixed_s = 0, sample_s = 0;
-    bool sure = false;  ///< false: a sample may cost more or less
+    bool sure = false;  ///< false: a further small pass would tell more
   };
 
   Cost cost() const;

@@ -80,7 +80,7 @@ class TimedFrame {
                   (core_seconds() - start_core_s) / passes_.threads(), pass.filter_s, pass.dice_s};
     complete_ = pass.complete;
     if (!complete_ && samples_ > 0) return false;
-    rendered_.push_back(samples);
+    rendered_.push_back(samples), passes_s_.push_back(last_pass_.seconds);
     merge(std::move(pass), samples);
     return complete_;
   }
@@ -120,6 +120,7 @@ class TimedFrame {
     result.numbers.insert(result.numbers.end(), {{"spp_mean", double(samples_)},
                                                  {"spp_limit", target_.max_samples},
                                                  {"passes", double(rendered_.size())}});
+    result.words.emplace_back("passes_s", fmt::format("{:.3g}", fmt::join(passes_s_, ",")));
     result.words.emplace_back(
         "repeat", fmt::format("--seed {} --passes {}", settings_.seed, fmt::join(rendered_, ",")));
     return result;
@@ -132,6 +133,7 @@ class TimedFrame {
   PassResult frame_;
   int samples_ = 0;            ///< of the passes that make the image
   std::vector<int> rendered_;  ///< samples of every pass
+  std::vector<double> passes_s_;
   bool complete_ = true;
   TimedPass last_pass_;
   /// What one sample a pixel would have, if errors fell with the root of their number: images with

@@ -68,7 +68,8 @@ TEST_CASE("a frame of even samples ends within a tenth of the time, whatever its
 }
 
 TEST_CASE("one pass has most of what a frame of one pass could have, whatever is not for samples") {
-  for (const double time_s : {4.0, 20.0})
+  // Small passes that tell what passes cost have a filter each, which is dear where time is short.
+  for (const auto& [time_s, share] : {std::pair{4.0, 0.4}, {20.0, 0.8}})
     for (const double dice_s : {0.0, 1.0})
       for (const double cold_s : {0.0, 0.1})
         for (const double fixed_s : {0.0, 0.03})
@@ -77,7 +78,7 @@ TEST_CASE("one pass has most of what a frame of one pass could have, whatever is
               MadeUpFrame frame{0.1, dice_s, cold_s, fixed_s, filter_s, sample_s};
               frame.run(TimePlanner(time_s, 0.01, 1, 1 << 20));
               CAPTURE(time_s, dice_s, cold_s, fixed_s, filter_s, sample_s, frame.passes);
-              CHECK(frame.most_samples() > 0.6 * frame.samples_at_once(time_s));
+              CHECK(frame.most_samples() > share * frame.samples_at_once(time_s));
               CHECK(frame.elapsed_s < time_s);
             }
 }
@@ -87,7 +88,7 @@ TEST_CASE("little time for much that is fixed still goes to one pass") {
   MadeUpFrame frame{0, 0.3, 0.02, 0, 0.2, 0.005};
   frame.run(TimePlanner(1.5, 0.01, 1, 1024));
   CAPTURE(frame.passes);
-  CHECK(frame.most_samples() >= 60);
+  CHECK(frame.most_samples() >= 55);
   CHECK(frame.elapsed_s < 1.5);
 }
 
