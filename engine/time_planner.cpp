@@ -24,10 +24,10 @@ constexpr double fitted_growth = 2;
 /// than cheaper.
 constexpr double short_pass_share = 0.8;
 
-/// Of what a sample costs if nothing but the filter and dicing are fixed: the least that it is taken
-/// for, by a pass of few samples and of `telling_samples`, and the least that one can be sure of.
-/// What looks fixed from few samples is mostly vectors that they do not fill. After `sure_passes`
-/// nothing further is tried.
+/// Of what a sample costs if nothing but the filter and dicing are fixed: the least that it is
+/// taken for, by a pass of few samples and of `telling_samples`, and the least that one can be sure
+/// of. What looks fixed from few samples is mostly vectors that they do not fill. After
+/// `sure_passes` nothing further is tried.
 constexpr double least_sample_share = 0.5, least_telling_share = 0.9, sure_sample_share = 0.8;
 constexpr size_t sure_passes = 4;
 
@@ -46,8 +46,8 @@ constexpr double last_of_time = 0.35;
 /// worth it.
 constexpr double time_left_over = 0.05, samples_left_over = 1.0 / 16;
 
-/// See replaces_what_was_before(). A filtered image of 8 samples harms one of 56, one of 16 does not
-/// harm one of 48.
+/// See replaces_what_was_before(). A filtered image of 8 samples harms one of 56; one of 16 does
+/// not harm one of 48.
 constexpr int replacing_growth = 6, filtered_replacing_growth = 3;
 
 double core_s(const TimedPass& pass) {
@@ -80,8 +80,8 @@ TimePlanner::Cost TimePlanner::cost() const {
   const double fixed_s = passes_.size() > 1 ? known_s : part_core_s(many, many.filter_s);
   if (many.samples < fitted_growth * few.samples) return {fixed_s, most_sample_s, false};
   const double few_s = core_s(few) - part_core_s(few, few.filter_s + few.dice_s);
-  const double slope_s = (core_s(many) - known_s - short_pass_share * few_s) /
-                         double(many.samples - few.samples);
+  const double slope_s =
+      (core_s(many) - known_s - short_pass_share * few_s) / double(many.samples - few.samples);
   const double least = many.samples >= telling_samples ? least_telling_share : least_sample_share;
   const double sample_s = std::clamp(slope_s, least * most_sample_s, most_sample_s);
   const bool sure = sample_s >= sure_sample_share * most_sample_s || passes_.size() >= sure_passes;
@@ -105,9 +105,8 @@ double TimePlanner::affordable(double seconds, const Cost& cost) const {
 
 double TimePlanner::wanted_samples(double left_s, const Cost& cost) const {
   const TimedPass& last = passes_.back();
-  const bool telling =
-      passes_.size() >= sure_passes ||
-      (last.samples >= telling_samples && last.seconds >= telling_share * left_s);
+  const bool telling = passes_.size() >= sure_passes ||
+                       (last.samples >= telling_samples && last.seconds >= telling_share * left_s);
   if (!cost.sure || !telling) {
     const double samples = pilot_growth * double(last.samples);
     const double share = passes_.size() == 1 ? most_second_share : most_pilot_share;

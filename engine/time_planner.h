@@ -60,8 +60,8 @@ class TimePlanner {
 };
 
 /// Whether a pass has so many more samples than all before it together, `before`, that their few
-/// would only harm its image: few samples are badly stratified, and where images are `filtered` they
-/// are blurred besides, which their mean keeps.
+/// would only harm its image: few samples are badly stratified, and where images are `filtered`
+/// they are blurred besides, which their mean keeps.
 bool replaces_what_was_before(int samples, int before, bool filtered);
 
 }  // namespace tessera

@@ -76,8 +76,9 @@ class TimedFrame {
     PassResult pass = passes_.render(
         samples, hash_combine(hash_combine(settings_.seed, pass_seed), uint32_t(rendered_.size())));
     const double end_s = passes_.elapsed_s();
-    last_pass_ = {samples, end_s - start_s, end_s,
-                  (core_seconds() - start_core_s) / passes_.threads(), pass.filter_s, pass.dice_s};
+    last_pass_ = {samples,       end_s - start_s,
+                  end_s,         (core_seconds() - start_core_s) / passes_.threads(),
+                  pass.filter_s, pass.dice_s};
     complete_ = pass.complete;
     if (!complete_ && samples_ > 0) return false;
     rendered_.push_back(samples), passes_s_.push_back(last_pass_.seconds);

@@ -27,8 +27,8 @@ struct MadeUpFrame {
     double core_s = many * (fixed_s + sample_s * samples) + filter_s;
     if (passes.empty()) core_s += dice_s + cold_s;
     const double seconds = core_s / share;
-    return {samples,          seconds, elapsed_s + seconds, core_s, filter_s / share,
-            passes.empty() ? dice_s / share : 0};
+    return {samples, seconds,          elapsed_s + seconds,
+            core_s,  filter_s / share, passes.empty() ? dice_s / share : 0};
   }
   bool run(TimePlanner planner) {
     elapsed_s = setup_s;
