@@ -202,8 +202,10 @@ PassResult FramePasses::render(const Samples& samples) {
   std::optional<BucketQueue> queue;
   if (grids_) queue.emplace(buckets_, control_, ++pass_count_, known_passes(), rows);
   PassResult result;
+  const double diced_s = statistics_.dice_s();
   for (const Strip& strip : strips_) render_strip(samples, strip, queue, result);
   if (queue) result.complete = queue->complete();
+  result.dice_s = (statistics_.dice_s() - diced_s) / threads_;
   return result;
 }
 
@@ -236,6 +238,7 @@ void FramePasses::render_strip(const Samples& samples, const Strip& strip,
   }
   append_strip(film->finish(), result.image);
   if (plain) append_strip(plain->finish(), result.plain ? *result.plain : result.plain.emplace());
+  result.filter_s += film->filter_s();
   statistics_.add(*film, strip.crop.pixel_count());
 }
 

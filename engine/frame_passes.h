@@ -23,6 +23,8 @@ struct PassResult {
   /// `image`.
   std::optional<Image> plain;
   bool complete = true;  ///< false after a cancellation: buckets are missing
+  double filter_s = 0;   ///< seconds that a method for distribution effects took
+  double dice_s = 0;     ///< seconds of a thread that dicing took, their mean
 };
 
 class FramePasses {
@@ -44,6 +46,7 @@ class FramePasses {
   int lowest_level() const;
   /// Where all pixels have as many, their number is a multiple of this.
   int sample_unit() const { return adaptive() ? 1 : plan_.samples_per_pixel; }
+  int threads() const { return threads_; }
   double elapsed_s() const { return statistics_.elapsed_s(); }
 
   /// One pass with the plan's own number of samples.

@@ -29,6 +29,8 @@ class FrameStatistics {
   Statistics finish(const FramePlan& plan, const Scene& scene, const Settings& settings,
                     int threads, const Diagnostics& diagnostics) const;
 
+  /// Of all threads together; between passes.
+  double dice_s() const { return times_.dice_s; }
   double elapsed_s() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <optional>
 #include <vector>
 
@@ -27,6 +28,13 @@ Image colours_of(const Image& image) {
   return colours;
 }
 
+/// Of all threads of the program.
+double core_seconds() {
+  timespec time{};
+  if (clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time) != 0) return 0;
+  return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
 /// relMSE of R, G and B; 0 where there are none.
 double difference_squared(const Image& a, const Image& b) {
   const Image colours = colours_of(b);
@@ -46,6 +54,7 @@ class TimedFrame {
     std::optional<int> samples = first();
     while (samples && add_pass(*samples)) samples = next();
     if (complete_) warn_if_late(target_, passes_.elapsed_s(), samples_, diagnostics);
+    if (complete_ && target_.time_s) warn_at_limit(diagnostics);
     return passes_.finish(std::move(frame_), statistics(), !complete_);
   }
 
@@ -55,19 +64,22 @@ class TimedFrame {
   }
   std::optional<int> next() {
     const size_t done = rendered_.size();
-    if (target_.time_s) return planner_.next({rendered_.back(), last_pass_s_, passes_.elapsed_s()});
+    if (target_.time_s) return planner_.next(last_pass_);
     return done < target_.passes.size() ? std::optional(target_.passes[done]) : std::nullopt;
   }
 
   /// False when it was cancelled: the passes before make the image, if there are any.
   bool add_pass(int samples) {
-    const double start_s = passes_.elapsed_s();
+    const double start_s = passes_.elapsed_s(), start_core_s = core_seconds();
     PassResult pass = passes_.render(
         samples, hash_combine(hash_combine(settings_.seed, pass_seed), uint32_t(rendered_.size())));
-    last_pass_s_ = passes_.elapsed_s() - start_s;
+    const double end_s = passes_.elapsed_s();
+    last_pass_ = {samples,       end_s - start_s,
+                  end_s,         (core_seconds() - start_core_s) / passes_.threads(),
+                  pass.filter_s, pass.dice_s};
     complete_ = pass.complete;
     if (!complete_ && samples_ > 0) return false;
-    rendered_.push_back(samples);
+    rendered_.push_back(samples), passes_s_.push_back(last_pass_.seconds);
     merge(std::move(pass), samples);
     return complete_;
   }
@@ -76,13 +88,22 @@ class TimedFrame {
     if (samples_ > 0)
       single_error_squared_ = difference_squared(frame_.image, pass.image) /
                               (1.0 / double(samples_) + 1.0 / double(samples));
-    if (replaces_what_was_before(samples, samples_)) {
+    if (replaces_what_was_before(samples, samples_, passes_.plan().filters_distribution())) {
       frame_ = std::move(pass), samples_ = samples;
       return;
     }
     samples_ += samples;
     take_closest(passes_.groups(), pass.image, frame_.image);
     average(passes_.groups(), pass.image, double(samples) / double(samples_), frame_.image);
+  }
+
+  void warn_at_limit(Diagnostics& diagnostics) const {
+    if (!planner_.samples_spent()) return;
+    diagnostics.warn_once(
+        "limit of samples",
+        fmt::format("the frame came to the limit of {:.0f} samples a pixel in {:.3g} s of {:.3g} s; "
+                    "--max-spp sets the limit",
+                    target_.max_samples, passes_.elapsed_s(), *target_.time_s));
   }
 
   AccuracyStatistics statistics() const {
@@ -93,6 +114,7 @@ class TimedFrame {
     result.numbers.insert(result.numbers.end(), {{"spp_mean", double(samples_)},
                                                  {"spp_limit", target_.max_samples},
                                                  {"passes", double(rendered_.size())}});
+    result.words.emplace_back("passes_s", fmt::format("{:.3g}", fmt::join(passes_s_, ",")));
     result.words.emplace_back(
         "repeat", fmt::format("--seed {} --passes {}", settings_.seed, fmt::join(rendered_, ",")));
     return result;
@@ -105,8 +127,9 @@ class TimedFrame {
   PassResult frame_;
   int samples_ = 0;            ///< of the passes that make the image
   std::vector<int> rendered_;  ///< samples of every pass
+  std::vector<double> passes_s_;
   bool complete_ = true;
-  double last_pass_s_ = 0;
+  TimedPass last_pass_;
   /// What one sample a pixel would have, if errors fell with the root of their number: images with
   /// a and b samples differ by 1 / a + 1 / b of it.
   double single_error_squared_ = 0;

@@ -177,6 +177,16 @@ TEST_CASE("a frame within a time can be repeated") {
   CHECK(differing_values(read_exr(folder / "out.exr"), timed.image) == 0);
 }
 
+TEST_CASE("a frame with time for more than the limit of samples says so") {
+  Settings settings;
+  settings.time_s = 1000;
+  settings.max_samples = 6;
+  const FrameResult frame = render_text_frame(moving_ball(), settings);
+  CHECK(number(frame, "spp_mean") <= 6);
+  REQUIRE(frame.statistics.warnings.size() == 1);
+  CHECK_THAT(frame.statistics.warnings.front(), Contains("limit of 6 samples"));
+}
+
 TEST_CASE("the program tells what was reached, and refuses targets that make no sense") {
   const TemporaryFolder folder;
   folder.write("s.rib", moving_ball());
