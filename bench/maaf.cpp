@@ -5,11 +5,12 @@
 ///
 /// Speed-ups compare frames at equal relMSE: the error of AAF and of unfiltered frames is measured
 /// at several sample counts, and counts and times interpolated between them. `speedup_vs_NAME` is
-/// the ratio of sample counts, `time_ratio_vs_NAME` that of the times of whole frames, in which what
-/// a frame costs whatever its samples, and the filter, count too. Columns NAME_capped are 1 where
-/// even the most samples are worse (the ratios are then at least this) and -1 where the fewest are
-/// better already (at most this). `..._vs_aaf_bound` takes the samples that AAF's own rule of
-/// sampling asks for instead, whatever the error, and their time by the last two steps measured.
+/// the ratio of sample counts, `time_ratio_vs_NAME` that of the times of whole frames, in which
+/// what a frame costs whatever its samples, and the filter, count too. Columns NAME_capped are 1
+/// where even the most samples are worse (the ratios are then at least this) and -1 where the
+/// fewest are better already (at most this). `..._vs_aaf_bound` takes the samples that AAF's own
+/// rule of sampling asks for instead, whatever the error, and their time by the last two steps
+/// measured. `tables` in place of a scene: the tables of bench/maaf_tables.h alone.
 
 #include "bench/harness/benchmark.h"
 #include "bench/maaf_runs.h"
@@ -52,6 +53,7 @@ class MaafBenchmark {
         folder_(argument(context, 2, "")) {}
 
   void run() {
+    if (scene_ == "tables") return add_maaf_tables(context_);
     const std::vector<std::string> names =
         scene_.empty() ? maaf_scene_names() : std::vector<std::string>{scene_};
     for (const std::string& name : names) measure(name);
@@ -129,7 +131,8 @@ class MaafBenchmark {
   /// Every method at one sample count.
   void add_methods_row(MaafRuns& runs, const std::string& name) {
     Columns columns;
-    for (const std::string method : {MaafRuns::unfiltered, MaafRuns::aaf, "fsf", "maaf", "wiener"}) {
+    for (const std::string method :
+         {MaafRuns::unfiltered, MaafRuns::aaf, "fsf", "maaf", "wiener"}) {
       const MaafRun& run = runs.run(method, row_spp[0]);
       columns.emplace_back(fmt::format("{}_rel_mse", method), run.rel_mse);
       columns.emplace_back(fmt::format("{}_energy_ratio", method), runs.energy_ratio(run));
@@ -182,7 +185,7 @@ BenchmarkDefinition benchmark_maaf() {
           "error and time of filtering for lens, soft shadows and bounces, against AAF and more "
           "samples",
           [](BenchmarkContext& context) { MaafBenchmark(context).run(); },
-          {"SCENE|all", "METHOD|default", "FOLDER"}};
+          {"SCENE|all|tables", "METHOD|default", "FOLDER"}};
 }
 
 }  // namespace tessera

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/harness/benchmark.h"
+#include "bench/maaf_boxes.h"
 #include "bench/maaf_flatland.h"
 #include "reconstruct/wedge_spectrum.h"
 
@@ -28,27 +29,27 @@ inline std::vector<DoubleWedge> table_wedges() {
   return wedges;
 }
 
+using WedgeSpectrum = std::function<std::vector<SpectrumGaussian>(const DoubleWedge&)>;
+
 /// Table 1: boxes instead of Gaussians, averages over table_wedges().
 inline void add_box_table(BenchmarkContext& context) {
   const std::vector<DoubleWedge> wedges = table_wedges();
-  const auto add = [&](const std::string& name,
-                       const std::function<double(const DoubleWedge&)>& f) {
+  const auto add = [&](const std::string& name, const WedgeSpectrum& boxes) {
     double sum = 0.0;
-    for (const DoubleWedge& wedge : wedges) sum += f(wedge);
+    for (const DoubleWedge& wedge : wedges) sum += summed_box_coverage(wedge, boxes(wedge));
     context.add_row("table1/" + name,
                     {{"coverage", sum / double(wedges.size())}, {"accuracy", 1.0}});
   };
-  add("AAF", [](const DoubleWedge& wedge) { return box_coverage(wedge, 1); });
-  add("FSF", [](const DoubleWedge&) { return 0.5; });
+  add("AAF", aaf_spectrum);
+  add("FSF", fsf_spectrum);
   for (int components : {3, 5, 7, 25, 75, 125})
     add(fmt::format("MAAF{}", components),
-        [&](const DoubleWedge& wedge) { return box_coverage(wedge, components); });
+        [&](const DoubleWedge& wedge) { return maaf_spectrum(wedge, components); });
 }
 
 /// Table 2: Gaussians, averages over table_wedges() and the three wedges of the paper.
 inline void add_gaussian_table(BenchmarkContext& context) {
-  using Spectrum = std::function<std::vector<SpectrumGaussian>(const DoubleWedge&)>;
-  const auto add = [&](const std::string& name, const Spectrum& spectrum) {
+  const auto add = [&](const std::string& name, const WedgeSpectrum& spectrum) {
     WedgeFit mean{0.0, 0.0};
     const std::vector<DoubleWedge> wedges = table_wedges();
     for (const DoubleWedge& wedge : wedges) {

@@ -34,6 +34,7 @@ void BenchmarkContext::add_row(const std::string& case_name, Columns columns) {
     }
   }
   rows_.push_back({case_name, std::move(columns)});
+  if (on_row) on_row(rows_.back());
 }
 
 std::string usage_of(const BenchmarkDefinition& benchmark) {

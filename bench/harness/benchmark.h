@@ -64,6 +64,10 @@ class BenchmarkContext {
   /// the table.
   void add_failure(const std::string& what) { failures_.push_back(what); }
 
+  /// Told of every row as soon as it is there: long benchmarks show how far they are, and what they
+  /// have measured if they are stopped. May be null.
+  std::function<void(const BenchmarkRow&)> on_row{};
+
   const std::vector<BenchmarkRow>& rows() const { return rows_; }
   const std::vector<std::string>& failures() const { return failures_; }
 
@@ -131,6 +135,9 @@ inline void keep(const T& value) {
 
 /// Where this program lies; the renderer is beside it.
 std::string program_folder();
+
+/// A row on a line of its own: the case, then "column value" after "column value".
+std::string format_row(const BenchmarkRow& row);
 
 /// Table of rows, columns aligned, for people. Rows may have different columns.
 std::string format_table(const std::vector<BenchmarkRow>& rows);

@@ -48,6 +48,8 @@ void run_benchmark(const Request& request) {
   check_arguments(benchmark, request.arguments);
   if (!request.json_file.empty()) check_writable(request.json_file);
   BenchmarkContext context(request.quick, request.arguments);
+  // Not to stdout, which takes the whole table; stderr is not held back.
+  context.on_row = [](const BenchmarkRow& row) { fmt::print(stderr, "{}\n", format_row(row)); };
   const double total_s = seconds_of([&] { benchmark.run(context); });
   fmt::print("{}: {}\n\n{}\n{:.1f} s in all\n", benchmark.name, benchmark.help,
              format_table(context.rows()), total_s);

@@ -70,6 +70,13 @@ Table lay_out(const std::vector<BenchmarkRow>& rows) {
 
 }  // namespace
 
+std::string format_row(const BenchmarkRow& row) {
+  std::string text = row.case_name;
+  for (const auto& [name, value] : row.columns)
+    text += fmt::format("  {} {}", name, format_value(value));
+  return text;
+}
+
 std::string format_table(const std::vector<BenchmarkRow>& rows) {
   const Table table = lay_out(rows);
   std::vector<size_t> widths(table.front().size());

@@ -3,6 +3,8 @@
 /// each pair of which is two products of a function over the image and one over y (equations 9 to
 /// 13 and 19 to 23), as printed but for the corrections that docs/reconstruction.md lists.
 
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "reconstruct/axis_window.h"
@@ -35,6 +37,28 @@ double light_spectrum(double frequency) {
   return frequency == 0.0 ? 1.0 : std::sin(frequency) / frequency;
 }
 
+/// exp(-(deviation y)^2 / 2): a Gaussian in frequency, seen in the primal domain with height 1.
+double primal(double deviation, double y) {
+  return std::exp(-0.5 * (deviation * y) * (deviation * y));
+}
+
+/// Its mean over [-1, 1].
+double mean_of_primal(double deviation) {
+  if (deviation < 1e-3) return 1.0;
+  constexpr double half = std::numbers::sqrt2 / 2;
+  return std::sqrt(std::numbers::pi) * half / deviation * std::erf(half * deviation);
+}
+
+/// A component's factor of the second effect at u, without the phase. The Gaussian has height 1 in
+/// frequency, as those over x have: its mean over u is 1 whatever its width, so that slopes, which
+/// are known only where rays met something, do not make such samples count for more or less. The
+/// weight is the spectrum of even light at the centre, as it is along y.
+double second_window(const Band& along_u, double u) {
+  if (along_u.centre == 0.0 && along_u.deviation == 0.0) return 1.0;
+  return light_spectrum(along_u.centre) * primal(along_u.deviation, u) /
+         mean_of_primal(along_u.deviation);
+}
+
 class MultipleAxisAligned : public ReconstructionMethod {
  public:
   explicit MultipleAxisAligned(int count) : count_(count), shares_(size_t(count)) {
@@ -59,12 +83,16 @@ class MultipleAxisAligned : public ReconstructionMethod {
     const Slopes first(at.wedge), second(at.second_wedge);
     const double s_min = std::max(first.least, least_slope);
     const double s_max = std::max(first.greatest, least_slope);
+    // A first effect without shifts, or whose shifts nobody saw, says nothing of the second's
+    // frequencies: all u count alike.
+    const bool has_second = first.greatest >= least_slope;
     const double u = first.mirrored == second.mirrored ? at.second_y : -at.second_y;
     for (int p = 0; 2 * p < count_; ++p) {
       const MaafComponent component = component_of(p);
       const Band along_y = component.along_y();
-      const Band along_u = component.along_u(s_min, s_max, second.least, second.greatest);
-      const double window = primal(along_y, at.y) * primal(along_u, u);
+      const Band along_u =
+          has_second ? component.along_u(s_min, s_max, second.least, second.greatest) : Band{};
+      const double window = primal(along_y.deviation, at.y) * second_window(along_u, u);
       const double phase = along_y.centre * at.y + along_u.centre * u;
       out[p == 0 ? 0 : 2 * p - 1] = float(window * std::cos(phase));
       if (p > 0) out[2 * p] = float(window * std::sin(phase));
@@ -90,10 +118,6 @@ class MultipleAxisAligned : public ReconstructionMethod {
 
  private:
   MaafComponent component_of(int p) const { return {p, count_, light_band}; }
-
-  static double primal(const Band& band, double y) {
-    return std::exp(-0.5 * (band.deviation * y) * (band.deviation * y));
-  }
 
   /// Equation 21: the Gaussian over the image with its cosine, and less its sine. Returns the sum
   /// of the cosines. Seen through y -> -y the sines change sign.
@@ -121,7 +145,9 @@ class MultipleAxisAligned : public ReconstructionMethod {
   }
 
   int count_;
-  std::vector<double> shares_;  ///< means of the functions over y, without a second effect
+  /// Means of the functions over y without a second effect; that of the central one is the same
+  /// with any.
+  std::vector<double> shares_;
 };
 
 std::unique_ptr<ReconstructionMethod> make(std::string_view arguments) {

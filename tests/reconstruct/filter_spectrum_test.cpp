@@ -2,10 +2,14 @@
 
 #include <catch2/catch.hpp>
 
+#include <cmath>
+#include <numbers>
+
 #include <glm/glm.hpp>
 
 #include "base/error.h"
 #include "reconstruct/pixel_filter.h"
+#include "reconstruct/quadrature.h"
 #include "tests/cameras/fourier.h"
 
 using namespace tessera;
@@ -48,7 +52,50 @@ std::vector<double> shares_within(const std::vector<double>& x_power,
   return inside;
 }
 
+/// The transform of a filter's weights along one axis, squared.
+double power_at(const PixelFilterDefinition& filter, double width, double frequency) {
+  const double half = gauss_integral(0.0, 0.5 * width, 4, [&](double x) {
+    return filter.weight(x, width) * std::cos(2.0 * std::numbers::pi * frequency * x);
+  });
+  return 4.0 * half * half;
+}
+
+double axis_energy(const PixelFilterDefinition& filter, double width) {
+  return 2.0 * gauss_integral(0.0, 0.5 * width, 4, [&](double x) {
+           return filter.weight(x, width) * filter.weight(x, width);
+         });
+}
+
+/// The share of the two-dimensional spectrum within a radius, summed over frequencies.
+double share_within(const PixelFilterDefinition& filter, double x_width, double y_width,
+                    double radius) {
+  const int panels = 6 + int(2 * radius);
+  const double quadrant = gauss_integral(0.0, 0.5 * std::numbers::pi, panels, [&](double angle) {
+    const double fx = radius * std::sin(angle), end = radius * std::cos(angle);
+    return power_at(filter, x_width, fx) * end * gauss_integral(0.0, end, panels, [&](double fy) {
+             return power_at(filter, y_width, fy);
+           });
+  });
+  return 4.0 * quadrant / (axis_energy(filter, x_width) * axis_energy(filter, y_width));
+}
+
 }  // namespace
+
+TEST_CASE("band limits of pixel filters are those of the spectra summed over frequencies") {
+  for (const auto& filter : pixel_filter_registry()) {
+    for (glm::dvec2 width : {glm::dvec2(2, 2), glm::dvec2(3, 1.5)}) {
+      for (double share : {0.5, 0.9, 0.98}) {
+        const double limit = pixel_filter_band_limit(filter, width.x, width.y, share);
+        INFO(filter.name << " " << width.x << " x " << width.y << " " << share << ": " << limit);
+        // Overlaps are known at 1024 distances and in 64 directions.
+        CHECK(share_within(filter, width.x, width.y, limit) == Approx(share).margin(2e-5));
+      }
+    }
+  }
+  // What the shading of a frame takes unless told otherwise.
+  CHECK(pixel_filter_band_limit(find_pixel_filter("gaussian"), 2, 2, 0.98) ==
+        Approx(0.6450255).epsilon(1e-6));
+}
 
 TEST_CASE("band limits of pixel filters hold their shares of the spectra of the weights") {
   for (const auto& filter : pixel_filter_registry()) {

@@ -268,7 +268,8 @@ TEST_CASE("MAAF's functions are finite with any second effect", "[method]") {
       at.second_wedge = second;
       method->basis(at, values.data());
       INFO(first.low << " " << first.high << " / " << second.low << " " << second.high);
-      for (float value : values) CHECK((std::isfinite(value) && std::abs(value) <= 1.0f));
+      // Over u the narrowest window, of deviation 1/4, has mean 1: it is 3.2 high.
+      for (float value : values) CHECK((std::isfinite(value) && std::abs(value) <= 3.2f));
     }
   }
 }

@@ -203,8 +203,13 @@ TEST_CASE("maaf's functions of y are its windows, with the second effect's in th
     const double begin = p ? 4.0 * (2 * p - 1) / 5 / 8.0 * 1.0 : 0;
     const double end = 4.0 * (2 * p + 1) / 5 / 5.0 * 2.0;
     const double centre = p ? (begin + end) / 2 : 0, deviation = p ? (end - begin) / 2 : end;
-    const double window =
-        std::exp(-0.5 * std::pow(0.6 * 4.0 / 5, 2)) * std::exp(-0.5 * std::pow(0.3 * deviation, 2));
+    // Over u the Gaussian has mean 1, and the component the weight of even light at its centre.
+    double mean = 0;
+    for (int i = 0; i < 1000; ++i)
+      mean += std::exp(-0.5 * std::pow(((i + 0.5) / 500 - 1) * deviation, 2)) / 1000;
+    const double light = p ? std::sin(centre) / centre : 1.0;
+    const double window = std::exp(-0.5 * std::pow(0.6 * 4.0 / 5, 2)) * light *
+                          std::exp(-0.5 * std::pow(0.3 * deviation, 2)) / mean;
     const double phase = 0.6 * 4.0 * 2 * p / 5 + 0.3 * centre;
     CHECK(values[p ? 2 * p - 1 : 0] == Approx(window * std::cos(phase)).epsilon(1e-5));
     if (p) CHECK(values[2 * p] == Approx(window * std::sin(phase)).epsilon(1e-5));
