@@ -267,9 +267,16 @@ TEST_CASE("The noise of places is left out of penumbrae, their mean stays", "[re
 
 TEST_CASE("Too many moments for the memory are refused", "[reconstruction]") {
   DistributionFrame frame = busy_frame(40, 30);
-  frame.settings.memory_bytes = 1000;
-  CHECK_THROWS_WITH(frame.render(gaussian()), Catch::Contains("moments for each of 1200 pixels") &&
-                                                  Catch::Contains("fewer components"));
+  ReconstructionSettings& settings = frame.settings;
+  CHECK(reconstruction_bytes(settings) == 0);  // the film alone
+  settings.method = gaussian();
+  const size_t bytes = reconstruction_bytes(settings);
+  CHECK(bytes > size_t(40 * 30) * 88 * sizeof(float));
+  settings.memory_bytes = bytes;
+  CHECK(make_reconstruction(settings));
+  settings.memory_bytes = bytes - 1;
+  CHECK_THROWS_WITH(make_reconstruction(settings),
+                    Catch::Contains("for 40 x 30 pixels") && Catch::Contains("fewer components"));
 }
 
 TEST_CASE("Methods are found by name", "[reconstruction]") {
