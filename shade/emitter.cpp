@@ -1,9 +1,7 @@
 #include "shade/emitter.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <utility>
 
 #include "base/error.h"
 #include "shade/fragment_geometry.h"
@@ -29,31 +27,23 @@ glm::dvec3 doubled_area(const Corners& p) {
   return glm::cross(glm::dvec3(p[1]) - glm::dvec3(p[0]), glm::dvec3(p[2]) - glm::dvec3(p[0]));
 }
 
-/// Along the Hilbert curve over a square of `side` x `side` cells, side a power of two. The curve
-/// of the whole is four of half the size, of which the first and last are turned.
-uint32_t place_on_hilbert_curve(uint32_t side, uint32_t x, uint32_t y) {
-  uint32_t place = 0;
-  for (uint32_t s = side / 2; s > 0; s /= 2) {
-    const bool right = (x & s) != 0, upper = (y & s) != 0;
-    place += s * s * (right ? (upper ? 2u : 3u) : (upper ? 1u : 0u));
-    if (upper) continue;
-    if (right) x = ~x, y = ~y;
-    std::swap(x, y);
+/// The part that holds a share in [0, 1) of the area of parts [first, end), and the share of its
+/// own area that is up to there. area_before(k): of all parts before k.
+struct Found {
+  size_t part;
+  double share;
+};
+template <class Area>
+Found find_share(size_t first, size_t end, double share, const Area& area_before) {
+  const double from = area_before(first), wanted = from + share * (area_before(end) - from);
+  size_t part = first;
+  for (size_t count = end - first; count > 1;) {
+    const size_t half = count / 2;
+    const bool later = area_before(part + half) <= wanted;
+    part += later ? half : 0, count = later ? count - half : half;
   }
-  return place;
-}
-
-std::vector<uint32_t> micropolygons_along_curve(const Grid& grid) {
-  const auto columns = uint32_t(grid.u_count), rows = uint32_t(grid.v_count);
-  const uint32_t side = std::bit_ceil(std::max(columns, rows));
-  std::vector<std::pair<uint32_t, uint32_t>> order;  // (place, micropolygon)
-  for (uint32_t m = 0; m < columns * rows; ++m) {
-    order.emplace_back(place_on_hilbert_curve(side, m % columns, m / columns), m);
-  }
-  std::ranges::sort(order);
-  std::vector<uint32_t> result;
-  for (const auto& [place, m] : order) result.push_back(m);
-  return result;
+  const double before = area_before(part), own = area_before(part + 1) - before;
+  return {part, std::clamp((wanted - before) / own, 0.0, 1.0)};
 }
 
 /// The square onto the triangle with corners 0, x and y, area kept and less bent than by a square
@@ -67,47 +57,79 @@ glm::vec2 triangle_from_square(glm::vec2 xi) {
   return xi;
 }
 
-/// An edge, what is across it in the triangle, and the normal: natural axes of most flat shapes.
+/// An edge, what is across it in the plane, and the normal: natural axes of most flat shapes.
 Frame frame_of(const Corners& p) {
   const glm::dvec3 normal = glm::normalize(doubled_area(p));
   const glm::dvec3 edge = glm::normalize(glm::dvec3(p[1]) - glm::dvec3(p[0]));
   return {edge, glm::cross(normal, edge), normal};
 }
 
+/// Whether the triangles' common edge is a diagonal of a parallelogram at every key, but for
+/// rounding. Straight ways between keys keep it one.
+bool is_parallelogram(const Grid& grid, uint32_t micropolygon) {
+  constexpr float rounding = 1e-6f;
+  for (const float time : grid.key_times) {
+    const Corners abd = corners_at(grid, 2 * micropolygon, time);
+    const glm::vec3 c = corners_at(grid, 2 * micropolygon + 1, time)[2];
+    const glm::vec3 a = abd[0], b = abd[1], d = abd[2];
+    const float size = glm::length(b - a) + glm::length(d - b) + glm::length(a);
+    if (!(glm::length((a - b) + (d - c)) <= rounding * size)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Emitter::Emitter(std::vector<std::shared_ptr<const Grid>> grids) : grids_(std::move(grids)) {
-  for (uint32_t g = 0; g < grids_.size(); ++g) {
-    for (const uint32_t m : micropolygons_along_curve(*grids_[g])) {
-      add_triangle(g, 2 * m), add_triangle(g, 2 * m + 1);
-    }
-  }
+  for (uint32_t g = 0; g < grids_.size(); ++g) add_grid(g);
   if (!empty()) measure();
+}
+
+void Emitter::add_grid(uint32_t grid) {
+  const auto columns = uint32_t(grids_[grid]->u_count), rows = uint32_t(grids_[grid]->v_count);
+  const size_t first_row = row_ends_.size();
+  for (uint32_t row = 0; row < rows; ++row) {
+    const size_t first_piece = pieces_.size();
+    for (uint32_t k = 0; k < columns; ++k) add_micropolygon(grid, row * columns + k);
+    if (pieces_.size() > first_piece) row_ends_.push_back(pieces_.size());
+  }
+  if (row_ends_.size() > first_row) grid_ends_.push_back(row_ends_.size());
 }
 
 bool Emitter::moves() const {
   return std::ranges::any_of(grids_, [](const auto& grid) { return grid->key_count() > 1; });
 }
 
-void Emitter::add_triangle(uint32_t grid, uint32_t triangle) {
-  const double area = 0.5 * glm::length(doubled_area(corners_at(*grids_[grid], triangle, 0.0f)));
+void Emitter::add_micropolygon(uint32_t grid, uint32_t micropolygon) {
+  if (is_parallelogram(*grids_[grid], micropolygon)) {
+    add({grid, 2 * micropolygon, true});
+  } else {
+    add({grid, 2 * micropolygon, false}), add({grid, 2 * micropolygon + 1, false});
+  }
+}
+
+void Emitter::add(const Piece& piece) {
+  const double share = piece.parallelogram ? 1.0 : 0.5;
+  const double area = share * glm::length(doubled_area(corners(piece, 0.0f)));
   if (!(area > 0.0) || !std::isfinite(area)) return;
-  triangles_.push_back({grid, triangle});
+  pieces_.push_back(piece);
   area_up_to_.push_back(area + (area_up_to_.empty() ? 0.0 : area_up_to_.back()));
 }
 
-Corners Emitter::corners(size_t triangle, float time) const {
-  const Triangle& of = triangles_[triangle];
-  return corners_at(*grids_[of.grid], of.triangle, time);
+Corners Emitter::corners(const Piece& piece, float time) const {
+  const Corners p = corners_at(*grids_[piece.grid], piece.triangle, time);
+  if (!piece.parallelogram) return p;
+  return {p[0], p[1], p[0] + (p[2] - p[1])};
 }
 
 glm::dvec3 Emitter::centroid() const {
   glm::dvec3 moment(0.0);
   double before = 0.0;
-  for (size_t k = 0; k < triangles_.size(); ++k) {
-    const Corners p = corners(k, 0.0f);
-    moment +=
-        (area_up_to_[k] - before) / 3.0 * (glm::dvec3(p[0]) + glm::dvec3(p[1]) + glm::dvec3(p[2]));
+  for (size_t k = 0; k < pieces_.size(); ++k) {
+    const Corners p = corners(pieces_[k], 0.0f);
+    const glm::dvec3 a(p[0]), b(p[1]), c(p[2]);
+    const glm::dvec3 centre = pieces_[k].parallelogram ? 0.5 * (b + c) : (a + b + c) / 3.0;
+    moment += (area_up_to_[k] - before) * centre;
     before = area_up_to_[k];
   }
   return moment / before;
@@ -115,13 +137,15 @@ glm::dvec3 Emitter::centroid() const {
 
 glm::dvec3 Emitter::reach(const glm::dvec3& centre, const Frame& frame) const {
   glm::dvec3 reach(0.0);
-  for (size_t k = 0; k < triangles_.size(); ++k) {
-    for (const glm::vec3& p : corners(k, 0.0f)) {
-      const glm::dvec3 offset = glm::dvec3(p) - centre;
-      for (int a = 0; a < 3; ++a) {
-        reach[a] = std::max(reach[a], std::abs(glm::dot(offset, frame[size_t(a)])));
-      }
-    }
+  const auto include = [&](const glm::vec3& p) {
+    const glm::dvec3 offset = glm::dvec3(p) - centre;
+    for (int a = 0; a < 3; ++a)
+      reach[a] = std::max(reach[a], std::abs(glm::dot(offset, frame[size_t(a)])));
+  };
+  for (const Piece& piece : pieces_) {
+    const Corners p = corners(piece, 0.0f);
+    for (const glm::vec3& corner : p) include(corner);
+    if (piece.parallelogram) include(p[1] + (p[2] - p[0]));
   }
   return reach;
 }
@@ -132,7 +156,7 @@ void Emitter::measure() {
   extent_.area_root = float(std::sqrt(area_up_to_.back()));
   double least = std::numeric_limits<double>::infinity();
   const Frame of_camera{glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)};
-  for (const Frame& frame : {frame_of(corners(0, 0.0f)), of_camera}) {
+  for (const Frame& frame : {frame_of(corners(pieces_.front(), 0.0f)), of_camera}) {
     const glm::dvec3 r = reach(centre, frame);
     const double surface = r.x * r.y + r.y * r.z + r.z * r.x;
     if (!(surface < least)) continue;
@@ -142,14 +166,20 @@ void Emitter::measure() {
 }
 
 LightPlace Emitter::place(glm::vec2 xi, float time) const {
-  const double wanted = double(xi.x) * area_up_to_.back();
-  const auto found = std::ranges::upper_bound(area_up_to_, wanted);
-  const size_t k = std::min(size_t(found - area_up_to_.begin()), triangles_.size() - 1);
-  const double before = k > 0 ? area_up_to_[k - 1] : 0.0;
-  const double within = (wanted - before) / (area_up_to_[k] - before);
-  const Corners p = corners(k, time);
-  const glm::vec2 at = triangle_from_square({std::clamp(float(within), 0.0f, 1.0f), xi.y});
-  const glm::dvec3 normal = double(grids_[triangles_[k].grid]->normal_sign) * doubled_area(p);
+  const auto first_of = [](const std::vector<size_t>& ends, size_t k) {
+    return k > 0 ? ends[k - 1] : 0;
+  };
+  const Found grid =
+      find_share(0, grid_ends_.size(), double(xi.x), [&](size_t k) { return area_before_grid(k); });
+  const Found row = find_share(first_of(grid_ends_, grid.part), grid_ends_[grid.part], double(xi.y),
+                               [&](size_t k) { return area_before_row(k); });
+  const Found in_row = find_share(first_of(row_ends_, row.part), row_ends_[row.part], grid.share,
+                                  [&](size_t k) { return area_before(k); });
+  const Piece& piece = pieces_[in_row.part];
+  const Corners p = corners(piece, time);
+  const glm::vec2 on_square(float(in_row.share), float(row.share));
+  const glm::vec2 at = piece.parallelogram ? on_square : triangle_from_square(on_square);
+  const glm::dvec3 normal = double(grids_[piece.grid]->normal_sign) * doubled_area(p);
   const double length = glm::length(normal);
   return {p[0] + at.x * (p[1] - p[0]) + at.y * (p[2] - p[0]),
           length > 0.0 ? glm::vec3(normal / length) : glm::vec3(0.0f)};

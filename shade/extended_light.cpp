@@ -168,12 +168,14 @@ glm::vec3 radiance_of(const BoundParameters& parameters) {
 }
 
 std::vector<glm::vec2> spread_places(int count) {
+  constexpr uint32_t every_other_bit = 0x55555555u;
   const auto n = uint32_t(std::max(count, 1));
   const int bits = std::bit_width(n - 1);  // 2^bits >= n
   std::vector<glm::vec2> places;
   for (uint32_t k = 0; k < n; ++k) {
     uint32_t reversed = 0;
     for (int b = 0; b < bits; ++b) reversed |= (k >> b & 1u) << (bits - 1 - b);
+    reversed ^= every_other_bit & ((1u << bits) - 1u);
     places.emplace_back((float(k) + 0.5f) / float(n),
                         (float(reversed) + 0.5f) / float(uint32_t(1) << bits));
   }

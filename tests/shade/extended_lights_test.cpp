@@ -88,6 +88,30 @@ struct SkyScene : LitScene {
 
 }  // namespace
 
+TEST_CASE("sums over few places are as good on either diagonal of a light", "[light]") {
+  // What the square [-1, 1]^2 sends to a point two below its plane that faces it, but for a factor.
+  const auto received = [](const glm::dvec2& P, const std::vector<glm::vec2>& places) {
+    double sum = 0;
+    for (const glm::vec2& xi : places) {
+      const glm::dvec2 d = 2.0 * glm::dvec2(xi) - 1.0 - P;
+      sum += 1.0 / std::pow(glm::dot(d, d) + 4.0, 2);
+    }
+    return sum / double(places.size());
+  };
+  constexpr int n = 200;
+  std::vector<glm::vec2> all;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      all.emplace_back((float(i) + 0.5f) / float(n), (float(j) + 0.5f) / float(n));
+  for (const glm::dvec2& P : {glm::dvec2(0, 0), {1, 1}, {-2, 2}, {2, 1}, {3, -3}}) {
+    const double exact = received(P, all);
+    CAPTURE(P.x, P.y);
+    CHECK(received(P, spread_places(16)) == Approx(exact).epsilon(0.004));
+    CHECK(received(P, spread_places(64)) == Approx(exact).epsilon(0.001));
+    CHECK(received(P, spread_places(1024)) == Approx(exact).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("a rectangle light adds what Lambert's formula says", "[light]") {
   const glm::dmat4 tilted = space({1.0, -0.5, 2.0}, {-0.2, 0.3, 1.0}, {1.5, 1.0, 0.7});
   const auto corners = rectangle_corners(tilted, 0.8, 1.2);
