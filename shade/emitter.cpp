@@ -64,13 +64,15 @@ Frame frame_of(const Corners& p) {
   return {edge, glm::cross(normal, edge), normal};
 }
 
-/// Whether the triangles' common edge is a diagonal of a parallelogram at every key, but for
-/// rounding. Straight ways between keys keep it one.
-bool is_parallelogram(const Grid& grid, uint32_t micropolygon) {
+/// Whether a grid of one micropolygon, which is how flat surfaces are diced, is a parallelogram at
+/// every key, but for rounding. Straight ways between keys keep it one. Pieces of curved surfaces
+/// are none: far from the eye rounding hides how their sides differ.
+bool is_parallelogram(const Grid& grid) {
+  if (grid.micropolygon_count() != 1) return false;
   constexpr float rounding = 1e-6f;
   for (const float time : grid.key_times) {
-    const Corners abd = corners_at(grid, 2 * micropolygon, time);
-    const glm::vec3 c = corners_at(grid, 2 * micropolygon + 1, time)[2];
+    const Corners abd = corners_at(grid, 0, time);
+    const glm::vec3 c = corners_at(grid, 1, time)[2];
     const glm::vec3 a = abd[0], b = abd[1], d = abd[2];
     const float size = glm::length(b - a) + glm::length(d - b) + glm::length(a);
     if (!(glm::length((a - b) + (d - c)) <= rounding * size)) return false;
@@ -101,11 +103,9 @@ bool Emitter::moves() const {
 }
 
 void Emitter::add_micropolygon(uint32_t grid, uint32_t micropolygon) {
-  if (is_parallelogram(*grids_[grid], micropolygon)) {
-    add({grid, 2 * micropolygon, true});
-  } else {
-    add({grid, 2 * micropolygon, false}), add({grid, 2 * micropolygon + 1, false});
-  }
+  const bool whole = is_parallelogram(*grids_[grid]);
+  add({grid, 2 * micropolygon, whole});
+  if (!whole) add({grid, 2 * micropolygon + 1, false});
 }
 
 void Emitter::add(const Piece& piece) {

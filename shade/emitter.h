@@ -31,7 +31,7 @@ class Emitter {
   LightPlace place(glm::vec2 xi, float time) const;
 
  private:
-  /// A triangle, or the whole micropolygon that it is half of where that is a parallelogram.
+  /// A triangle, or the parallelogram that it is half of where a grid is no more than that.
   struct Piece {
     uint32_t grid, triangle;
     bool parallelogram;
