@@ -1,5 +1,6 @@
 // The comparison of images: pixels of the canvas against what the fixture's formulas give.
 import assert from 'node:assert/strict';
+import {resize} from './resize.mjs';
 
 const [WIDTH, HEIGHT] = [64, 36];
 
@@ -246,7 +247,7 @@ export const compareTests = [
   [
     'the wheel passes over the image unless it was pressed on, and again when the pointer has left',
     async (page) => {
-      await page.setViewportSize({width: 800, height: 500});
+      await resize(page, {width: 800, height: 500});
       const state = () =>
         page.evaluate(() => [
           Math.round(window.scrollY),
@@ -284,7 +285,7 @@ export const compareTests = [
   [
     'a finger scrolls past the image until it is zoomed in on, and the hint is not cut',
     async (page) => {
-      await page.setViewportSize({width: 390, height: 844});
+      await resize(page, {width: 390, height: 844});
       const action = () => page.$eval('.stage canvas', (canvas) => canvas.style.touchAction);
       assert.equal(await action(), 'pan-y');
       await page.click('button[aria-label="Zoom in"]');
@@ -326,7 +327,7 @@ export const compareTests = [
         page.$$eval('section', (sections) =>
           sections.map((section) => section.getBoundingClientRect().top + window.scrollY),
         );
-      await page.setViewportSize({width: 800, height: 900}); // all in one column
+      await resize(page, {width: 800, height: 900}); // all in one column
       const before = await tops();
       await page.hover('.point[data-run="0009"]', {force: true});
       await page.hover('.stage');

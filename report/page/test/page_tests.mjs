@@ -1,5 +1,6 @@
 // Summary and tables of the page of the fixture.
 import assert from 'node:assert/strict';
+import {resize} from './resize.mjs';
 
 /** The table as the page holds it. */
 export const tableOf = (page) =>
@@ -161,7 +162,7 @@ export const pageTests = [
     async (page) => {
       await page.click('.runs th[data-column=cpu_s] button'); // the arrow takes no room
       for (const width of [1280, 390]) {
-        await page.setViewportSize({width, height: 900});
+        await resize(page, {width, height: 900});
         const gaps = await page.evaluate(() => {
           const end = (cell) => {
             const range = document.createRange();
@@ -191,7 +192,7 @@ export const pageTests = [
     'tables besides show their verdicts without scrolling, next to what they are about',
     async (page) => {
       for (const width of [390, 1280, 1920]) {
-        await page.setViewportSize({width, height: 900});
+        await resize(page, {width, height: 900});
         const {right, edge} = await page.$eval('#tables .scroll', (frame) => ({
           right: frame.querySelector('td .verdict').getBoundingClientRect().right,
           edge: frame.getBoundingClientRect().right,
@@ -213,7 +214,7 @@ export const pageTests = [
   [
     'tables besides keep their first column in sight, and align words among numbers as these',
     async (page) => {
-      await page.setViewportSize({width: 390, height: 900});
+      await resize(page, {width: 390, height: 900});
       const cells = () =>
         page.$eval('#tables .scroll', (frame) => {
           const [first, second] = frame.querySelectorAll('tbody tr:first-child > *');
@@ -235,7 +236,7 @@ export const pageTests = [
     'nothing overflows sideways, on wide and narrow screens',
     async (page) => {
       for (const width of [1920, 1280, 800, 390]) {
-        await page.setViewportSize({width, height: 900});
+        await resize(page, {width, height: 900});
         const wider = await page.evaluate(
           () => document.documentElement.scrollWidth - window.innerWidth,
         );
