@@ -58,7 +58,7 @@ inline std::vector<ExtremeFrame> extreme_frames() {
   return {{.name = "nothing extreme"},
           {.name = "one sample a pixel", .side = 1},
           {.name = "light 1e-5 wide", .light_width = 1e-5},
-          {.name = "light 1e4 wide", .light_width = 1e4, .power = 1e8, .energy_bound = 0.3},
+          {.name = "light 1e4 wide", .light_width = 1e4, .power = 1e8, .energy_bound = 0.5},
           {.name = "radiance 1e30", .power = 2.25e30},
           {.name = "ball touches the floor", .ball_height = 0.7},
           {.name = "ball reaches into the light", .light_height = 1.5, .energy_bound = 0.03},

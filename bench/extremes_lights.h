@@ -118,12 +118,12 @@ inline void add_square_lights(ExtremesTable& table) {
     }
   }
   // Nearer than it is wide: one of the fixed places may count for 2 at most, until it is so near
-  // that none counts.
+  // that none lies over it.
   struct Gap {
     double size, too_much, missed;
   };
   for (const auto& [gap, too_much, missed] :
-       {Gap{1e-1, 0.005, 0.005}, {1e-3, 0.8, 0.005}, {1e-6, 0.001, 1}}) {
+       {Gap{1e-1, 0.005, 0.005}, {1e-3, 0.001, 1}, {1e-6, 0.001, 1}}) {
     const ExtremeLight light(sized_light("rectanglelight", "width", 1, 1024));
     add_near_rows(table, fmt::format("{:g} from a square of 1, fixed places", gap),
                   light.received({0, 0, float(gap)}, N), under_square(1, float(gap)), too_much,

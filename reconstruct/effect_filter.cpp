@@ -81,6 +81,7 @@ class EffectFilter {
   void add_ratio(RayEffect effect, const Source& source, Component& component) const;
   Planes gain_of(RayEffect effect) const;
   bool divides(float drawn, float wanted) const;
+  void fill_unknown(RayEffect effect, Component& ratio) const;
   bool steady(RayEffect effect, size_t p) const;
   float least_weight() const { return in_.cancels ? least_steady : least_normaliser; }
   std::vector<float> shared_ratios(RayEffect effect, const Component& ratio) const;
@@ -196,7 +197,7 @@ Planes EffectFilter::blend(const Component& component, const std::vector<float>*
 
 /// Whether what samples drew of the light that is wanted is enough to divide by.
 bool EffectFilter::divides(float drawn, float wanted) const {
-  if (!(std::abs(drawn) > smallest_divisor)) return false;
+  if (!(std::abs(wanted) > smallest_divisor)) return false;
   return !in_.cancels || drawn / wanted > least_steady;
 }
 
@@ -209,6 +210,19 @@ bool EffectFilter::steady(RayEffect effect, size_t p) const {
     if (std::abs(wanted) > smallest_divisor && !divides(mean(drawn + c)[p], wanted)) return false;
   }
   return true;
+}
+
+/// Where no sample of a pixel drew a place that lights it, nothing is known of its own ratio, and
+/// it is that of the others.
+void EffectFilter::fill_unknown(RayEffect effect, Component& ratio) const {
+  const size_t drawn = layout_.drawn(effect);
+  for_pixels([&](size_t p) {
+    for (size_t c = 0; c < 3; ++c) {
+      if (std::abs(mean(drawn + c)[p]) > smallest_divisor) continue;
+      ratio.plain[c][p] = ratio.candidates.front().filtered[c][p];
+      ratio.deviation[c][p] = -1.0f;
+    }
+  });
 }
 
 /// A ratio of shadows is at most 1, and lone lit samples in the dark are what filters are for: only
@@ -313,6 +327,7 @@ Planes EffectFilter::filter_received(RayEffect effect) const {
     };
     add_ratio(effect, strongest, ratio);
   }
+  fill_unknown(effect, ratio);
   const Planes own_ratio = blend(ratio, &shared);
   const Planes light = through_lens(layout_.unblocked(effect));
   const Planes gain = effect == RayEffect::shadow ? gain_of(effect) : Planes();

@@ -10,7 +10,7 @@ namespace tessera {
 namespace {
 
 /// Nothing says that the light of a cell is wrong by more than this.
-constexpr float largest_gain = 4.0f;
+constexpr float largest_gain = 1e4f;
 
 float bounded_quotient(float sum, float divisor) {
   const float quotient = sum / divisor;

@@ -115,15 +115,37 @@ TEST_CASE("Rare light in the dark is shared, not an outlier", "[reconstruction]"
   CHECK(mean_of(filtered) == Approx(mean_of(plain)).epsilon(0.01));
 }
 
-TEST_CASE("Pixels beyond floats are bounded and counted",
-          "[reconstruction]") {
+TEST_CASE("Pixels whose samples drew no light have that of the others", "[reconstruction]") {
+  // A light of which every other place faces away, blocked on the right.
+  DistributionFrame frame(60, 60);
+  frame.settings.features.shadow = frame.has_drawn = true;
+  frame.samples_per_pixel = 1;
+  frame.shade = [](SceneSample& s) {
+    SceneSample::Ray& ray = s.rays[0];
+    const float facing = ray.y[1] > 0 ? 1.0f : 0.0f;
+    set(ray.unblocked, 0.5f), set(ray.drawn, facing), set(ray.received, s.x < 30 ? facing : 0.0f);
+    ray.slope = 0.5f, ray.extent[0] = ray.extent[1] = 4;
+  };
+  const Image plain = frame.render(nullptr);
+  for (const bool guarded : {false, true}) {
+    const Image filtered = frame.render(gaussian(guarded));
+    float least = 1;
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 20; ++x)
+        least = std::min(least, filtered.channels[0].values[filtered.index(x, y)]);
+    CAPTURE(guarded);
+    CHECK(least > 0.2f);
+    CHECK(mean_of(filtered) == Approx(0.25).epsilon(0.05));
+    CHECK(mean_of(plain) == Approx(0.25).epsilon(0.05));
+  }
+}
+
+TEST_CASE("Pixels beyond floats are bounded and counted", "[reconstruction]") {
   const bool filtered = GENERATE(false, true);
   DistributionFrame frame(20, 20);
   frame.settings.features.lens = true;
   frame.settings.film.exposure_gain = 16;
-  frame.shade = [](SceneSample& s) {
-    set(s.base, s.x < 10 ? 5e37f : -5e37f);
-  };
+  frame.shade = [](SceneSample& s) { set(s.base, s.x < 10 ? 5e37f : -5e37f); };
   FilmCounters counters;
   const Image image = frame.render(filtered ? gaussian() : nullptr, 0, 1, &counters);
   CHECK(counters.pixel_values_bounded == 3 * 20 * 20);
