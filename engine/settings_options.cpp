@@ -192,6 +192,15 @@ std::string list_registry(const char* title, const Registry& registry) {
 
 }  // namespace
 
+/// An option in MiB for a number of bytes; `help` has a place for its default.
+void add_budget(CLI::App& app, const char* name, size_t& bytes, const char* help) {
+  app.add_option_function<size_t>(
+         name, [&bytes](const size_t& mib) { bytes = mib << 20; },
+         fmt::format(fmt::runtime(help), bytes >> 20))
+      ->check(CLI::Range(size_t(1), max_memory_mib))
+      ->type_name("MIB");
+}
+
 void add_settings_options(CLI::App& app, Settings& settings) {
   add_sample_options(app, settings);
   app.add_option("--extra-samples", settings.extra_samples,
@@ -215,23 +224,13 @@ void add_settings_options(CLI::App& app, Settings& settings) {
   app.add_option("--threads", settings.threads, "0: every core (0)")
       ->check(CLI::Range(0, max_threads))
       ->type_name("N");
-  app.add_option_function<size_t>(
-         "--memory", [&settings](const size_t& mib) { settings.memory_bytes = mib << 20; },
-         fmt::format(
-             "budget for diced grids in MiB ({}); what is shaded on them comes on top, about "
-             "as much again",
-             settings.memory_bytes >> 20))
-      ->check(CLI::Range(size_t(1), max_memory_mib))
-      ->type_name("MIB");
-  app.add_option_function<size_t>(
-         "--filter-memory",
-         [&settings](const size_t& mib) { settings.filter_memory_bytes = mib << 20; },
-         fmt::format(
-             "budget for filters of distribution effects in MiB ({}); frames that take more "
-             "are rendered in strips, and rows between them twice",
-             settings.filter_memory_bytes >> 20))
-      ->check(CLI::Range(size_t(1), max_memory_mib))
-      ->type_name("MIB");
+  add_budget(
+      app, "--memory", settings.memory_bytes,
+      "budget for diced grids in MiB ({}); what is shaded on them comes on top, about as much "
+      "again");
+  add_budget(app, "--filter-memory", settings.filter_memory_bytes,
+             "budget for filters of distribution effects in MiB ({}); frames that take more are "
+             "rendered in strips, and rows between them twice");
 }
 
 std::string list_choices() {

@@ -9,7 +9,7 @@
 namespace tessera {
 namespace {
 
-/// Nothing says that the light of a cell is wrong by more than this.
+/// Keeps quotients finite: very near a light its fixed places may miss nearly all of it.
 constexpr float largest_gain = 1e4f;
 
 float bounded_quotient(float sum, float divisor) {

@@ -20,59 +20,57 @@ class RingingMethod : public GaussianMethod {
   }
 };
 
+/// A busy frame without and with bounces as bright as `fire` where `burns` says so.
+struct FireflyImages {
+  Image without, plain, with;
+
+  FireflyImages(bool guarded, float fire, const std::function<bool(const SceneSample&)>& burns) {
+    DistributionFrame frame = busy_frame(64, 64);
+    frame.samples_per_pixel = 8;
+    without = frame.render(gaussian(guarded));
+    frame.shade = [=, shade = frame.shade](SceneSample& s) {
+      shade(s);
+      if (burns(s)) set(s.rays[1].received, fire), s.rays[1].slope = 1;
+    };
+    plain = frame.render(nullptr), with = frame.render(gaussian(guarded));
+    CHECK(all_finite(with));
+    CHECK(mean_of(with) == Approx(mean_of(plain)).epsilon(0.01));
+  }
+  float change(size_t p) const {
+    return std::abs(with.channels[0].values[p] - without.channels[0].values[p]);
+  }
+};
+
+bool lies_in(const SceneSample& s, int x, int y) {
+  return s.x > float(x) && s.x < float(x + 1) && s.y > float(y) && s.y < float(y + 1);
+}
+
 }  // namespace
 
 TEST_CASE("Fireflies stay where they are", "[reconstruction]") {
   const bool guarded = GENERATE(false, true);
-  DistributionFrame frame = busy_frame(64, 64);
-  frame.samples_per_pixel = 8;
-  const auto shade = frame.shade;
-  const Image without = frame.render(gaussian(guarded));
   const float fire = GENERATE(1e5f, 1e30f);
-  frame.shade = [=](SceneSample& s) {
-    shade(s);
-    if (s.x > 30 && s.x < 31 && s.y > 33 && s.y < 34 && s.t < 0.12f)
-      set(s.rays[1].received, fire), s.rays[1].slope = 1;
-  };
-  const Image plain = frame.render(nullptr), with = frame.render(gaussian(guarded));
-  CHECK(all_finite(with));
-  REQUIRE(mean_of(plain) > 1e-4 * fire / (64 * 64));  // it is there
-  CHECK(mean_of(with) == Approx(mean_of(plain)).epsilon(0.01));
+  const FireflyImages images(
+      guarded, fire, [](const SceneSample& s) { return lies_in(s, 30, 33) && s.t < 0.12f; });
+  REQUIRE(mean_of(images.plain) > 1e-4 * fire / (64 * 64));  // it is there
   for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) {
-      const size_t p = with.index(x, y);
+    for (int x = 0; x < 64; ++x)
       if (std::abs(x - 30) > 1 || std::abs(y - 33) > 1)
-        REQUIRE(std::abs(with.channels[0].values[p] - without.channels[0].values[p]) < 0.2f);
-    }
+        REQUIRE(images.change(images.with.index(x, y)) < 0.2f);
 }
 
 TEST_CASE("Fireflies next to each other stay where they are, too", "[reconstruction]") {
   const bool guarded = GENERATE(false, true);
-  DistributionFrame frame = busy_frame(64, 64);
-  frame.samples_per_pixel = 8;
-  const auto shade = frame.shade;
-  const Image without = frame.render(gaussian(guarded));
   // Three within the reach of one another, one of them in both halves of its samples.
-  const auto fires = [](float x, float y) {
-    return (x > 30 && x < 31 && y > 33 && y < 34) || (x > 33 && x < 34 && y > 33 && y < 34) ||
-           (x > 31 && x < 32 && y > 36 && y < 37);
-  };
-  frame.shade = [=](SceneSample& s) {
-    shade(s);
-    const float until = s.x < 31 ? 0.9f : 0.12f;
-    if (fires(s.x, s.y) && s.t < until) set(s.rays[1].received, 1e30f), s.rays[1].slope = 1;
-  };
-  const Image plain = frame.render(nullptr), with = frame.render(gaussian(guarded));
-  CHECK(all_finite(with));
-  CHECK(mean_of(with) == Approx(mean_of(plain)).epsilon(0.01));
+  const FireflyImages images(guarded, 1e30f, [](const SceneSample& s) {
+    return (lies_in(s, 30, 33) && s.t < 0.9f) ||
+           ((lies_in(s, 33, 33) || lies_in(s, 31, 36)) && s.t < 0.12f);
+  });
   size_t bright = 0;
-  for (int y = 0; y < 64; ++y)
-    for (int x = 0; x < 64; ++x) {
-      const size_t p = with.index(x, y);
-      bright += plain.channels[0].values[p] > 1e20f;
-      if (plain.channels[0].values[p] < 1e3f)
-        REQUIRE(std::abs(with.channels[0].values[p] - without.channels[0].values[p]) < 0.5f);
-    }
+  for (size_t p = 0; p < 64 * 64; ++p) {
+    bright += images.plain.channels[0].values[p] > 1e20f;
+    if (images.plain.channels[0].values[p] < 1e3f) REQUIRE(images.change(p) < 0.5f);
+  }
   CHECK(bright > 3);
 }
 
